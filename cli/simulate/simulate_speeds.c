@@ -37,11 +37,12 @@ static hci_status read_speeds(const char *text, inputs *in, hci_note *note)
         const double rpm = strtod(at, &end);
         const double last = in->speeds > 0 ? in->speed_rad_per_s[in->speeds - 1] : 0.0;
         const double speed = rpm * HCI_PI / 30.0;
-        if (end == at || !(speed > last) || !(rpm <= 1e6) || (*end != ',' && *end != '\0'))
+        if (end == at || !(fabs(speed) > fabs(last)) || last * speed < 0.0 || !(fabs(rpm) <= 1e6) ||
+            (*end != ',' && *end != '\0'))
             return hci_note_set(
                 note, HCI_ERROR_ARGUMENT,
-                "--speeds: found `%.60s`, expected speeds in rpm above 0, ascending, with a comma "
-                "between them, as in 80,320,1000",
+                "--speeds: found `%.60s`, expected speeds in rpm other than 0, of one direction and "
+                "ascending in size, with a comma between them, as in 80,320,1000 or -80,-320",
                 at);
         if (in->speeds == MOST_SPEEDS)
             return hci_note_set(note, HCI_ERROR_ARGUMENT, "--speeds: expected at most %d", (int)MOST_SPEEDS);

@@ -31,7 +31,7 @@ refused simulate data/machine_a -o "$work/out" -- 'expected MACHINE SCENARIO, or
 refused simulate data/machine_a --table "$work/a" -o "$work/out" -- '--table needs --drive FILE and --speeds'
 refused simulate data/machine_a data/drive/imposed.csv --speeds 80 -o "$work/out" -- 'go with --table'
 refused simulate data/machine_a data/drive/imposed.csv --table "$work/a" --drive $drive --speeds 80 -- 'takes the place of a scenario'
-for speeds in 0 80,80 320,80 80, ,80 80,x nan '80;90'; do
+for speeds in 0 80,80 320,80 80, ,80 80,x nan '80;90' -320,-80 -80,320 80,-320; do
     refused simulate data/machine_a --table "$work/a" --drive $drive --speeds "$speeds" -o "$work/out" -- '--speeds: found .*ascending'
 done
 
@@ -96,6 +96,10 @@ run 0 simulate data/machine_a --table "$work/a" --drive $drive --speeds 2000
 says '^  lead is worse than the plain sine at all given speeds$'
 run 0 simulate data/machine_a --table "$work/a" --drive $drive --speeds 300
 check "what is better is called worse" [ "$(grep -cE 'worse|mean torque' "$work/stdout")" -eq 0 ]
+# the other direction, where the positive torque brakes
+run 0 simulate data/machine_a --table "$work/a" --drive $drive --speeds -300,-900 -o "$work/back"
+says '^ +-300 rpm( +[0-9.]+){6}$' '^ +-900 rpm'
+check "the picture has no word of the direction" grep -q 'speed in rpm, in the negative direction' "$work/back/speeds.svg"
 # a table that is the plain sine is not worse than it
 printf 'order,amplitude_Nm,phase_rad\n0,2,0\n' >"$work/two.csv"
 printf 'name,value,unit,source\npole_pairs,2,1,t\n' >"$work/plain_machine.csv"

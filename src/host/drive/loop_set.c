@@ -277,6 +277,16 @@ static void add_order(const maker *m, size_t level, size_t k, partial_turn *x)
     }
 }
 
+/* The dc link that a speed needs in that direction of the two that takes more. */
+static double needed_V(const maker *m, const partial_turn *x, double speed_rad_per_s)
+{
+    double most = 0.0;
+    for (int sign = -1; sign <= 1; sign += 2)
+        most = fmax(most, hci_turn_samples_dc_link_V(&x->turn, m->machine.resistance_ohm,
+                                                     m->task->drive->modulation, sign * speed_rad_per_s));
+    return most;
+}
+
 /* Electrical speed up to which the voltage does; `beyond` where it does for that, too. */
 static double voltage_end(const maker *m, const partial_turn *x, double beyond)
 {
@@ -285,7 +295,7 @@ static double voltage_end(const maker *m, const partial_turn *x, double beyond)
     double low = 0.0, high = beyond;
     for (int k = 0; k < 32; ++k) {
         const double speed = 0.5 * (low + high);
-        if (hci_turn_samples_dc_link_V(&x->turn, m->machine.resistance_ohm, d->modulation, speed) < there_V)
+        if (needed_V(m, x, speed) < there_V)
             low = speed;
         else
             high = speed;

@@ -9,9 +9,15 @@ static const hci_svg_box RIPPLE = {70, 64, 736, 340}, VOLTAGE = {70, 424, 736, 5
 
 static const char *const STYLE[HCI_REMEDIES] = {"before", "noise", "wanted", "c", "a"};
 
+/* Its size: on a logarithmic axis there is no other. */
 static double rpm_of(const hci_speed_row *row)
 {
-    return row->speed_rad_per_s * 30.0 / HCI_PI;
+    return fabs(row->speed_rad_per_s) * 30.0 / HCI_PI;
+}
+
+static const char *label_of(const hci_speeds *s)
+{
+    return s->row[0].speed_rad_per_s < 0.0 ? "speed in rpm, in the negative direction" : "speed in rpm";
 }
 
 static double ripple_of(const hci_speed_row *row, int remedy)
@@ -79,7 +85,7 @@ static void draw_strips(hci_output *out, const hci_speeds *s, const panel *p, co
         const double x = hci_svg_log_at(&p->x, rpm_of(&s->row[k]));
         const hci_svg_box strip = {fmax(x - 5.0, b->left), b->top, fmin(x + 5.0, b->right), b->bottom};
         hci_svg_tell(out, "");
-        hci_svg_tell_value(out, "", rpm_of(&s->row[k]), "rpm");
+        hci_svg_tell_value(out, "", s->row[k].speed_rad_per_s * 30.0 / HCI_PI, "rpm");
         for (int j = 0; j < HCI_REMEDIES; ++j)
             hci_svg_tell_value(out, NAME[j], p->value(&s->row[k], j), unit);
         hci_svg_strip(out, &strip);
@@ -105,7 +111,7 @@ void hci_plot_speeds_ripple(hci_output *out, const hci_svg_box *area, const void
     for (int remedy = 0; remedy < HCI_REMEDIES; ++remedy)
         draw_remedy(out, s, &p, remedy);
     draw_strips(out, s, &p, &b, "%");
-    hci_svg_label(out, "quiet middle", 0.5 * (b.left + b.right), b.bottom + 35.0, "speed in rpm");
+    hci_svg_label(out, "quiet middle", 0.5 * (b.left + b.right), b.bottom + 35.0, label_of(s));
 }
 
 void hci_plot_speeds_voltage(hci_output *out, const hci_svg_box *area, const void *speeds)
@@ -128,7 +134,7 @@ void hci_plot_speeds_voltage(hci_output *out, const hci_svg_box *area, const voi
     for (int remedy = 0; remedy < HCI_REMEDIES; ++remedy)
         draw_remedy(out, s, &p, remedy);
     draw_strips(out, s, &p, &b, "V");
-    hci_svg_label(out, "quiet middle", 0.5 * (b.left + b.right), b.bottom + 35.0, "speed in rpm");
+    hci_svg_label(out, "quiet middle", 0.5 * (b.left + b.right), b.bottom + 35.0, label_of(s));
 }
 
 void hci_plot_speeds(hci_output *out, const hci_speeds *s)

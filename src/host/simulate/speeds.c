@@ -50,7 +50,7 @@ static void fill_scenario(const grid *g, double speed_rad_per_s, hci_scenario *s
     hci_scenario_init(s);
     s->step_s = d->sample_s / STEPS_OF_A_SAMPLE;
     s->settle_s = SETTLE * slow_s + 200.0 * d->sample_s;
-    s->duration_s = s->settle_s + fmax(LEAST_s, 2.02 * 2.0 * HCI_PI / speed_rad_per_s);
+    s->duration_s = s->settle_s + fmax(LEAST_s, 2.02 * 2.0 * HCI_PI / fabs(speed_rad_per_s));
     s->prescribed_speed_rad_per_s = speed_rad_per_s;
     s->torque_reference_Nm = g->request->torque_Nm;
     s->current_control = HCI_CURRENT_PI;
@@ -229,7 +229,7 @@ static hci_status run_speed(grid *g, hci_speed_row *row)
     const hci_loop_f32 *loop = &g->set.loop;
     const double p = g->machine.model.pole_pairs;
     for (uint32_t k = 0; k < loop->order_count; ++k)
-        row->orders_short += (double)loop->ranges[k].whole_rad_per_s < p * row->speed_rad_per_s;
+        row->orders_short += (double)loop->ranges[k].whole_rad_per_s < p * fabs(row->speed_rad_per_s);
     return status;
 }
 

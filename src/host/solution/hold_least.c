@@ -63,7 +63,7 @@ static double missed_of(const least *l, size_t j, const double by[3], double the
     const hci_component c = l->q->set->component[j / 2];
     const hci_machine_data *m = l->q->of->machine;
     const double n = c.order, share = 0.125 * l->delta_rad * l->delta_rad,
-                 omega = fabs(l->q->of->options->speed_rad_per_s) * m->pole_pairs,
+                 omega = l->q->of->options->speed_rad_per_s * m->pole_pairs,
                  ohmic = m->resistance_ohm / (omega * l->inductance_H);
     const hci_wave i = {n, c.sequence, j % 2 == 0, j % 2 == 1},
                    slope = {n, c.sequence, -n * i.cosine, n * i.sine};

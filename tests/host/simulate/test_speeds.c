@@ -61,7 +61,7 @@ static hci_speeds run(const grid *g)
                             .torque_Nm = g->torque_Nm,
                             .speeds_rad_per_s = speed,
                             .model_error = g->model_error};
-    while (q.speed_count < MOST_SPEEDS && g->rpm[q.speed_count] > 0.0) {
+    while (q.speed_count < MOST_SPEEDS && g->rpm[q.speed_count] != 0.0) {
         speed[q.speed_count] = g->rpm[q.speed_count] * REF_PI / 30.0;
         ++q.speed_count;
     }
@@ -111,6 +111,43 @@ static void test_machine_a_is_limited_by_the_hold(void)
     TEST_ASSERT_TRUE(ripple(&f, 0, HCI_REMEDY_COMPENSATION) < 2.0);
     hci_speeds_release(&s);
     hci_speeds_release(&f);
+}
+
+/* A machine seen in a mirror turns the other way: e(θ) and T_cog(θ) become −e(−θ) and −T_cog(−θ), with phases
+ * b and c changed about, and all torque its negative. In place: cosines change their signs. */
+static void mirror(hci_machine *m)
+{
+    for (size_t k = 0; k < m->back_emf_count; ++k)
+        ((hci_wave *)(uintptr_t)m->back_emf)[k].cosine *= -1.0;
+    for (size_t k = 0; k < m->cogging_count; ++k)
+        ((hci_harmonic *)(uintptr_t)m->cogging)[k].cosine *= -1.0;
+}
+
+/* With dead time, and with a voltage that does not do for all orders, motor and generator. */
+static void test_the_other_direction_is_a_mirror_image(void)
+{
+    static const char *const DRIVES[] = {WINDING "dead_time,1,us\n", WINDING "modulation,sinusoidal,\n"};
+    for (int d = 0; d < 2; ++d)
+        for (int brakes = 0; brakes < 2; ++brakes) {
+            const double torque_Nm = brakes ? -2.46 : 2.46;
+            const grid forward = {&machine_a, DRIVES[d], torque_Nm, {300.0, 1500.0}, 0.0},
+                       backward = {&machine_a, DRIVES[d], -torque_Nm, {-300.0, -1500.0}, 0.0};
+            hci_speeds f = run(&forward);
+            mirror(&machine_a.model);
+            hci_speeds b = run(&backward);
+            mirror(&machine_a.model);
+            for (size_t k = 0; k < 2; ++k) {
+                TEST_ASSERT_DOUBLE_WITHIN(1e-5 * f.row[k].needed_V, f.row[k].needed_V, b.row[k].needed_V);
+                TEST_ASSERT_EQUAL(f.row[k].orders_short, b.row[k].orders_short);
+                for (int r = 0; r < HCI_REMEDIES; ++r) {
+                    TEST_ASSERT_DOUBLE_WITHIN(1e-4, f.row[k].remedy[r].mean_Nm, -b.row[k].remedy[r].mean_Nm);
+                    TEST_ASSERT_DOUBLE_WITHIN(1e-3, ripple(&f, k, (hci_remedy)r),
+                                              ripple(&b, k, (hci_remedy)r));
+                }
+            }
+            hci_speeds_release(&f);
+            hci_speeds_release(&b);
+        }
 }
 
 /* Other loops than the default one, each compensated as well. */
@@ -378,6 +415,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_machine_c_keeps_its_torque);
     RUN_TEST(test_machine_a_is_limited_by_the_hold);
+    RUN_TEST(test_the_other_direction_is_a_mirror_image);
     RUN_TEST(test_other_loops_are_compensated);
     RUN_TEST(test_a_measured_response_does_as_well);
     RUN_TEST(test_dead_time_and_readings_are_in_the_loop);

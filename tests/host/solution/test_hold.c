@@ -74,6 +74,26 @@ static void test_the_least_is_missed(void)
     TEST_ASSERT_TRUE(missed_percent < 1.8);
 }
 
+/* Turning the other way, the mirror image of the machine (e(θ) and T_cog(θ) become −e(−θ) and −T_cog(−θ))
+ * with the negative torque takes the same, but for the angles at which the loop is looked at. */
+static void test_the_other_direction_is_a_mirror_image(void)
+{
+    machine.resistance_ohm = 0.1;
+    machine.inductance_d_H = machine.inductance_q_H = 0.5e-3;
+    options.sample_rad = 200.0 / 3.0 * HCI_PI * 1e-4;
+    options.speed_rad_per_s = 100.0 / 3.0 * HCI_PI;
+    options.limit_voltage_V = 100.0;
+    const double copper_A2 = solve();
+    for (size_t k = 0; k < machine.model.back_emf_count; ++k)
+        ((hci_wave *)(uintptr_t)machine.model.back_emf)[k].cosine *= -1.0;
+    for (size_t k = 0; k < machine.model.cogging_count; ++k)
+        ((hci_harmonic *)(uintptr_t)machine.model.cogging)[k].cosine *= -1.0;
+    order[0].torque_Nm.cosine *= -1.0;
+    options.speed_rad_per_s *= -1.0;
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3 * copper_A2, copper_A2, solve());
+    TEST_ASSERT_NOT_NULL(strstr(solution.remark.text, "reduced: "));
+}
+
 /* Currents that a limit puts in the place of those of which the loop misses least are told of by themselves.
  */
 static void test_what_limits_put_in_their_place_is_told(void)
@@ -110,6 +130,7 @@ int main(void)
     RUN_TEST(test_a_sine_between_its_samples);
     RUN_TEST(test_high_orders_are_priced);
     RUN_TEST(test_the_least_is_missed);
+    RUN_TEST(test_the_other_direction_is_a_mirror_image);
     RUN_TEST(test_what_limits_put_in_their_place_is_told);
     RUN_TEST(test_nothing_is_priced_where_little_is_missed);
     return UNITY_END();

@@ -472,6 +472,35 @@ static void test_an_order_out_of_reach_hides_no_other(void)
 
 /* What goes in is heat, torque times speed, and what is stored, which has no mean: mean v·i = R mean i·i +
  * ω_m T. */
+/* The mirror image of a machine (e(θ) becomes −e(−θ)) with the negative torque turns the other way: S is the
+ * same, C its negative. A generator needs less voltage than a motor by twice R i, and its torque is not the
+ * same task. */
+static void test_the_other_direction_is_a_mirror_image(void)
+{
+    static const hci_component SET[] = {{1.0, 1}, {5.0, -1}, {7.0, 1}};
+    hci_wave both[2] = {{1.0, 1, K_E, 0.0}, {5.0, -1, 0.04 * K_E, 0.07 * K_E}};
+    hci_wave forward[3];
+    use(3, SET);
+    machine.model.back_emf = both;
+    machine.model.back_emf_count = 2;
+    options.speed_rad_per_s = 200.0;
+    options.limit_voltage_V = 66.0;
+    options.limit_current_A = 11.5;
+    solve(HCI_NOT_REACHED);
+    TEST_ASSERT_EQUAL(HCI_COST_RIPPLE, solution.limit_cost);
+    memcpy(forward, solution.current.wave, sizeof forward);
+    both[1].cosine *= -1.0;
+    order[0].torque_Nm.cosine *= -1.0;
+    solve(HCI_OK); /* the same direction, braking */
+    options.speed_rad_per_s *= -1.0;
+    solve(HCI_NOT_REACHED);
+    TEST_ASSERT_EQUAL(HCI_COST_RIPPLE, solution.limit_cost);
+    for (size_t k = 0; k < 3; ++k) {
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, -forward[k].sine, solution.current.wave[k].sine);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, forward[k].cosine, solution.current.wave[k].cosine);
+    }
+}
+
 static void test_power_balance_of_the_voltage(void)
 {
     hci_voltage_model model;
@@ -536,6 +565,7 @@ int main(void)
     RUN_TEST(test_gain_is_the_slope_of_the_ripple);
     RUN_TEST(test_an_order_out_of_reach_hides_no_other);
     RUN_TEST(test_power_balance_of_the_voltage);
+    RUN_TEST(test_the_other_direction_is_a_mirror_image);
     RUN_TEST(test_memory_runs_out);
     return UNITY_END();
 }

@@ -1,21 +1,28 @@
 """`hci-solve solve` within limits against clarabel, an independent solver of conic programs.
 
-    python3 clarabel_check.py HCI_SOLVE SOURCE_DIR {few,scenarios [NUMBER...],random [COUNT]}
+    python3 clarabel_check.py HCI_SOLVE SOURCE_DIR {few,scenarios [NUMBER...],random [COUNT]} [--table FILE]
 
 The task is built anew from the physics: torque of each component by sampling e·i over the turn and a Fourier
 transform, voltages by R i + ω L di/dθ + ω_m e, peaks on a dense grid with refinement. Nothing of the project's
 matrices is used, only the files that it writes. Each wish is solved with what the project got for the wishes before:
 
     mean     |mean − wanted| cannot be smaller
-    ripple   at the project's mean torque the worst order cannot be smaller
+    ripple   at the project's mean torque the worst order cannot be smaller than it says; its currents may have 5e-7 of
+             the torque more, which it leaves for the copper
     copper   at the project's mean torque and worst order the copper cannot be smaller
 
-Next to the smallest ripple the copper is steep: 1e-9 of a limit or of the mean torque can be worth 3e-5 of it, and no
-solver keeps a limit closer. Where the copper is off by more than 1e-6 it is held against that of limits and of a ripple
-which are 1e-9 tighter, where it is less against wider ones, and these cases are listed with what it is off by at most.
+Next to the smallest ripple the copper is steep: 1e-9 of a limit or of the mean torque can be worth 3e-5 of it, and
+clarabel keeps a limit no closer. Where the copper is off by more than 1e-6 it is held against what multipliers at the
+project's own currents prove (by numpy, no solver), where it is less against that of limits which are 1e-9 wider, and
+these cases are listed.
+
+A line a case tells how far it is. --table: a CSV file with a row for each wish of each case: what the project got, what
+clarabel got, the difference over the wanted mean torque or over the copper, and the processor time of the program (all
+wishes) and of clarabel with its rows and peaks (this wish).
 
 Exit code 77: numpy, scipy or clarabel is not installed.
 """
+import argparse
 import csv
 import functools
 import json
@@ -25,10 +32,13 @@ import subprocess
 import sys
 import tempfile
 
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # threads that wait count as processor time
+
 try:
     import clarabel
     import numpy as np
     import scipy.sparse as sparse
+    from scipy.optimize import nnls
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
     sys.exit(77)
@@ -37,12 +47,14 @@ TOLERANCE = 1e-6  # of the mean torque, and of the copper loss
 TIGHTER = 2e-9  # share by which the project takes limits tighter, lest a peak be above
 ENOUGH = 1e-7  # share of the optimum to which a bound and currents that reach it need not be told apart
 ROUNDS = 60
+PATIENCE = 6  # rounds without a better bound
 KEPT = 0.9  # share of a limit below which an angle is left out in the next round
 APART = 5e-4  # steps of the dense grid: a peak between angles so near is 3e-10 of a limit, and nearer rows are alike
-PULL = 1e-5  # to the currents of the round before, where many have next to the same torque
 STEEP = 1e-9  # share to which a solver keeps limits and torque
-STRONGEST = 1e-2  # to which the pull grows where clarabel does not come to an end
-AT_REST = 1e-8  # share of the torque that the pull may still be worth
+ACTS = 1e-6  # share of a limit, or of the worst order, to which what acts reaches it
+NEWTON = 4  # steps from the project's currents to those whose multipliers prove a bound
+PULL = 1e-6  # to the currents of the round before, where many have next to the same torque
+CLOSE = 2e-8  # share to which what clarabel reaches and what its multipliers prove are the same
 TURN = 2.0 * math.pi
 
 
@@ -159,11 +171,6 @@ class Task:
         return np.array([(self.grid[kind][0] @ x + self.grid[kind][1]) / (self.line_V if kind[0] else self.limit_A)
                          for kind in self.kinds()])
 
-    def across(self, unit_A):
-        """The largest distance of two currents within the limits, over unit_A."""
-        root = self.root(not self.limit_A)[:, :-1] * unit_A / (self.limit_A or self.line_V)
-        return 2 / np.linalg.svd(root, compute_uv=False)[-1]
-
     @functools.lru_cache
     def root(self, line):
         """R where |R (x, 1)| is the root of the mean square of the currents or voltages of the dense grid."""
@@ -210,10 +217,36 @@ def conic(p, q, a, b, cones):
     return answer
 
 
-def is_solved(answer):
-    """Whether an answer is one to 1e-7 where clarabel does not reach its own 1e-8."""
-    near = max(abs(answer.obj_val - answer.obj_val_dual), answer.r_prim, answer.r_dual) < 5e-8
-    return str(answer.status) == "Solved" or str(answer.status) == "AlmostSolved" and near
+def to_cones(z, cones):
+    """Multipliers that rounding has left outside of their cones, inside."""
+    z, at = z.copy(), 0
+    for cone in cones:
+        part = z[at:at + cone.dim]
+        if isinstance(cone, clarabel.NonnegativeConeT):
+            part[:] = np.maximum(part, 0.0)
+        elif isinstance(cone, clarabel.SecondOrderConeT):
+            part[0] = max(part[0], np.linalg.norm(part[1:]))
+        at += cone.dim
+    return z
+
+
+def least_copper(a, b, z):
+    """What ½|x|² with b − a x in the cones is at least, by multipliers z in them: the minimum over x of ½|x|² + z(a x − b)."""
+    of_x = a.T @ z
+    return -0.5 * float(of_x @ of_x) - float(b @ z)
+
+
+def least_torque(a, b, z, cones):
+    """What the last unknown is at least where b − a u is in the cones, the last of which bounds all the others: any
+    multipliers do, of which the last cone's make up for what they lack of a.T z = −(0, …, 0, 1)."""
+    z = to_cones(z, cones)
+    heads = -float(a[:, -1] @ z)
+    if not heads > 0.0:
+        return -math.inf
+    z /= heads
+    tail = a[1 - cones[-1].dim:, :-1]
+    z[1 - cones[-1].dim:] -= np.linalg.lstsq(tail.T, a[:, :-1].T @ z, rcond=None)[0]
+    return -float(b @ to_cones(z, cones))
 
 
 def wish_rows(task, wish, mean, worst, unit_A):
@@ -249,49 +282,45 @@ def mean_squares(task, unit_A, extra):
 
 def solve(task, wish, mean=None, worst=None, near=None, known=math.inf):
     """Optimum of one wish: limits at a few angles, then at the peaks of what comes of them too, until on a dense grid,
-    refined, no peak is beyond a limit: the optimum of all angles. Each round is of fewer rows than the task, and bounds it
-    from below: where a current within the limits is known to reach that bound, that is the end.
-
-    Torques are of many currents: there the current is pulled to that of the round before, first to near, and what the
-    pull can be worth across all that the limits allow is taken off.
+    refined, no peak is beyond a limit: the optimum of all angles. Each round is of fewer rows than the task, and its
+    multipliers prove a bound from below, however well clarabel has solved it: where a current within the limits is known
+    to reach that bound, that is the end.
 
     near: currents whose peaks are among the first angles, which saves rounds; rows of any angles are rows of the task.
-    known: what currents within the limits reach. Returned: the optimum, infinite where nothing is within the limits, and
-    why it is a bound only."""
+    known: what currents within the limits reach. Returned: the bound, infinite where nothing is within the limits, and
+    why it may be below the optimum."""
     n = 2 * len(task.components)
     unit_A, of_torque = task.limit_A or 10.0, wish != "copper"
+    unit = task.scale if of_torque else 3.0 * unit_A ** 2
     task.on_grid(np.zeros(n))
     fixed, right, cones = (u + v for u, v in zip(wish_rows(task, wish, mean, worst, unit_A), mean_squares(task, unit_A, int(of_torque))))
     pull = PULL if of_torque else 1.0
-    places, best, most = first_places(task, near), -math.inf, math.inf
-    centre = near / unit_A if of_torque and near is not None else np.zeros(n)
+    p, at = sparse.diags([pull] * n + [0.0] * of_torque, format="csc"), np.zeros(n) if near is None or not of_torque else near / unit_A
+    places, best, bounds = first_places(task, near), -math.inf, []
     for _ in range(ROUNDS):
         rows, constants = task.limited(places.kind, places.angle)
         rows, constants = rows * places.sign[:, None], constants * places.sign
         a = np.vstack([np.hstack([rows * unit_A, np.zeros((len(rows), int(of_torque)))]), *fixed])
-        p, q = sparse.diags([pull] * n + [0.0] * of_torque, format="csc"), np.hstack([-pull * centre, [1.0] * of_torque])
-        answer = conic(p, q, a, np.concatenate([1 - constants, *right]), [clarabel.NonnegativeConeT(len(rows)), *cones])
+        b, all_cones = np.concatenate([1 - constants, *right]), [clarabel.NonnegativeConeT(len(rows)), *cones]
+        answer = conic(p, np.append(-pull * at, [1.0] * of_torque), a, b, all_cones)
         if str(answer.status) == "PrimalInfeasible":
             return math.inf, ""
-        if not is_solved(answer) and of_torque and pull < STRONGEST:
-            pull *= 10
-            continue
-        if not is_solved(answer):
-            return best, f"clarabel says {answer.status} with {len(rows)} angles; the round before is {most} of a limit"
-        at = np.array(answer.x[:n])
-        x = unit_A * at
-        pulled = pull * float(np.linalg.norm(at - centre)) * task.across(unit_A) if of_torque else 0.0
-        best = max(best, task.scale * (float(answer.x[n]) - pulled) if of_torque else 1.5 * float(x @ x))
+        x, z = unit_A * np.array(answer.x[:n]), to_cones(np.array(answer.z), all_cones)
+        at = x / unit_A if of_torque else at
+        best = max(best, unit * (least_torque(a, b, z, all_cones) if of_torque else least_copper(a, b, z)))
+        reached = unit * (float(answer.x[n]) if of_torque else float(x @ x) / unit_A ** 2 / 2)
         found, most = task.peaks(x)
-        if known - best <= ENOUGH * (task.scale if of_torque else best) or most < 1 + 1e-9 and pulled < AT_REST:
+        whole = task.scale if of_torque else best
+        if known - best <= ENOUGH * whole or most < 1 + 1e-9 and reached - best < CLOSE * whole:
             return best, ""
-        moved = of_torque and most < 1 + 1e-6 and pulled >= AT_REST
-        centre = at if moved else centre
+        bounds.append(best)
+        if len(bounds) > PATIENCE and best - bounds[-1 - PATIENCE] < CLOSE * whole:
+            break
         kept = places.where(rows @ x + constants > KEPT)
         places = kept.with_new(found, APART * task.angles[1])
-        if len(places.angle) == len(kept.angle) and not moved:
+        if len(places.angle) == len(kept.angle):
             break
-    return best, f"a peak is {most} of a limit, and clarabel keeps it no closer"
+    return best, f"clarabel's currents are at {most} of a limit"
 
 
 def first_places(task, near):
@@ -304,6 +333,11 @@ def first_places(task, near):
         return places
     rows, constants = task.limited(kind, angle)
     return places.where((rows @ near + constants) * sign > 0.6).with_new(task.peaks(near, 0.99)[0], 0.0)
+
+
+def processor_s():
+    """Of this process and of those that it has waited for."""
+    return sum(os.times()[:4])
 
 
 def run(program, folder, arguments, out):
@@ -326,26 +360,56 @@ def coordinates(components, rows):
 
 
 class Tally:
-    """Largest deviations, and what was beyond the tolerance."""
+    """Largest deviations, what was beyond the tolerance, and a table of all."""
 
     def __init__(self):
         self.cases = self.limited = 0
-        self.steep = []
-        self.most = {"mean": 0.0, "ripple": 0.0, "copper": 0.0, "peak": 0.0}
+        self.steep, self.table = [], []
+        self.most = {"mean": 0.0, "ripple": 0.0, "ripple of the currents": 0.0, "copper": 0.0, "peak": 0.0}
         self.bad, self.open = [], []
+
+    def begin(self, name):
+        """A case, from the program on."""
+        self.cases += 1
+        self.name, self.began, self.first = name, processor_s(), len(self.table)
+
+    def program_has_ended(self, limits):
+        self.limited += limits["cost"] != "none"
+        self.program_s = processor_s() - self.began
+        self.began = processor_s()
+
+    def row(self, what, ours, theirs, scale, remark=""):
+        """What both got of a wish, after clarabel has been at it."""
+        unit, apart = "A2" if what == "copper" else "Nm", abs(ours - theirs) / scale if ours != theirs else 0.0
+        self.table.append([self.name, what, unit, f"{ours:.12g}", f"{theirs:.12g}", f"{apart:.2g}", f"{self.program_s:.3f}",
+                           f"{processor_s() - self.began:.2f}", remark])
+        self.began = processor_s()
+
+    def tell(self):
+        """The case in a line."""
+        rows = self.table[self.first:]
+        print(f"{self.name}: " + ", ".join(f"{row[1]} {row[5]}{' ' + row[8] if row[8] else ''}" for row in rows)
+              + f"; hci-solve {self.program_s:.2f} s, clarabel {sum(float(row[7]) for row in rows):.1f} s", flush=True)
+
+    def write(self, path):
+        with open(path, "w", newline="") as out:
+            head = ["case", "wish", "unit", "hci_solve", "clarabel", "relative_difference", "hci_solve_s", "clarabel_s", "remark"]
+            csv.writer(out, lineterminator="\n").writerows([head, *self.table])
 
     def note(self, name, what, deviation, allowed):
         self.most[what] = max(self.most[what], deviation)
         if not deviation <= allowed:
             self.bad.append(f"{name}: {what} off by {deviation:.3g} (allowed {allowed:.3g})")
 
-    def note_steep(self, name, deviation):
-        self.steep.append(f"{name}: {deviation:.2g}")
+    def note_steep(self, name, deviation, proven, worth):
+        self.steep.append(f"{name}: copper {deviation:.2g} from clarabel's bound, {proven:.2g} from what its own multipliers prove; "
+                          f"1e-9 of the limits is worth {worth:.2g} of it")
 
     def judge(self, name, what, ours, theirs, why, scale, room=0.0):
         """Where clarabel stops between, theirs is of fewer rows than the task and so a lower bound: a current that
         keeps all limits and comes as near to it is the best; one that does not leaves it open."""
         deviation = (ours - theirs) / scale
+        self.row(what, ours, theirs, scale, "bound" if why else "")
         if why and not deviation <= TOLERANCE + room:
             self.open.append(f"{name}: {what} off by {deviation:.3g} at most: {why}")
         else:
@@ -366,48 +430,102 @@ def compare(program, machine, target, name, tally, work, limits, asked=1.0):
         arguments += ["--limit-current", repr(float(limits["limit_A"] * asked))]
     if limits.get("line_V"):
         arguments += ["--limit-voltage", repr(limits["line_V"]), "--speed", repr(limits["speed"] * 30 / math.pi)]
+    tally.begin(name)
     rows, summary = run(program, folder, arguments, f"{folder}/out")
+    tally.program_has_ended(summary["limits"])
     task = Task(machine, limits["components"], target, limits.get("limit_A"), limits.get("line_V"), limits.get("speed", 0.0))
     x = coordinates(limits["components"], rows)
-    scale = task.scale
-    tally.cases += 1
-    tally.limited += summary["limits"]["cost"] != "none"
-    if summary["limits"]["cost"] == "limits":
-        answer, why = solve(task, "mean")
-        tally.note(name, "mean", 0.0 if answer == math.inf else 1.0, TOLERANCE)
-        return summary["limits"]
-    tally.note(name, "peak", max(0.0, task.peaks(x)[1] - 1.0), 1e-9)
-    room = TIGHTER * sum(limit["gain"] * limit["limit"] for limit in summary["limits"]["limit"]) / scale
-    missed = abs(task.mean(x) - task.mean_h)
-    least, why = (0.0, "") if missed <= ENOUGH * scale else solve(task, "mean", near=x, known=missed)
-    tally.judge(name, "mean", missed, least, why, scale, room)
-    if summary["limits"]["cost"] == "torque":  # next to the largest torque a wish for ripple has next to no room
-        return summary["limits"]
-    smallest, why = solve(task, "ripple", task.mean(x), near=x, known=task.worst(x))
-    tally.judge(name, "ripple", task.worst(x), smallest, why, scale, room)
-    compare_copper(task, x, name, tally, scale)
+    compare_wishes(task, x, name, tally, summary["limits"])
+    tally.tell()
     return summary["limits"]
 
 
+def compare_wishes(task, x, name, tally, said):
+    """Each wish with what the project has got for the wishes before. said: the program's limits."""
+    scale = task.scale
+    if said["cost"] == "limits":
+        answer, why = solve(task, "mean")
+        tally.row("mean", math.inf, answer, scale, "no current keeps the limits")
+        tally.note(name, "mean", 0.0 if answer == math.inf else 1.0, TOLERANCE)
+        return
+    tally.note(name, "peak", max(0.0, task.peaks(x)[1] - 1.0), 1e-9)
+    room = TIGHTER * sum(limit["gain"] * limit["limit"] for limit in said["limit"]) / scale
+    missed = abs(task.mean(x) - task.mean_h)
+    least, why = (0.0, "") if missed <= ENOUGH * scale else solve(task, "mean", near=x, known=missed)
+    tally.judge(name, "mean", missed, least, why, scale, room)
+    if said["cost"] == "torque":  # next to the largest torque a wish for ripple has next to no room
+        return
+    claimed = task.worst(x) if said["minimised_Nm"] is None else min(task.worst(x), said["minimised_Nm"])
+    smallest, why = solve(task, "ripple", task.mean(x), near=x, known=claimed)
+    tally.judge(name, "ripple", claimed, smallest, why, scale, room)
+    tally.note(name, "ripple of the currents", abs(task.worst(x) - smallest) / scale, TOLERANCE + room)
+    compare_copper(task, x, name, tally, scale)
+
+
 def compare_copper(task, x, name, tally, scale):
-    """The copper that clarabel needs for the same mean and ripple, or where that is steep whether it is outside of what it
-    needs with limits and ripple 1e-9 wider and tighter."""
+    """The copper that clarabel needs for the same mean and ripple. Where that is steep, so that it does not tell, what
+    multipliers at the project's own currents prove."""
     ours, mean, worst = 1.5 * float(x @ x), task.mean(x), task.worst(x) + 1e-12 * scale
     limit_A, line_V = task.limit_A, task.line_V
+    task.limit_A, task.line_V = limit_A and limit_A * (1 - TIGHTER), line_V and line_V * (1 - TIGHTER)
+    proven, worth, nearest = proof_of_copper(task, x, mean, worst)
+    copper, why = solve(task, "copper", mean, worst, nearest, ours)
+    if abs(ours - copper) > TOLERANCE * copper:
+        tally.note_steep(name, (ours - copper) / copper, (ours - proven) / copper, worth / copper)
+        tally.row("copper", ours, copper, copper, f"steep: {abs(ours - proven) / copper:.2g} by multipliers")
+        copper, why = max(copper, proven) - (worth if ours < copper else 0.0), ""
+    tally.judge(name, "copper", ours, copper, why, copper)
+    task.limit_A, task.line_V = limit_A, line_V
 
-    def theirs(tighter, less=0.0):
-        task.limit_A = limit_A and limit_A * (1 - tighter)
-        task.line_V = line_V and line_V * (1 - tighter)
-        return solve(task, "copper", mean, worst - less * scale, x, ours)
 
-    copper, why = theirs(TIGHTER)
-    if abs(ours - copper) <= TOLERANCE * copper:
-        tally.judge(name, "copper", ours, copper, why, copper)
-        return
-    side = STEEP if ours > copper else -STEEP
-    beyond, why_beyond = theirs(TIGHTER + side, side)
-    tally.note_steep(name, (ours - copper) / copper)
-    tally.judge(name, "copper", ours, max(ours, beyond) if side < 0 else min(ours, beyond), why_beyond, copper)
+def proof_of_copper(task, x, mean, worst):
+    """The copper that multipliers prove to be the least, without a solver: Newton's method for the conditions of Karush,
+    Kuhn and Tucker of what acts at the currents x, each peak with the bend that it has since its angle moves. Any
+    multipliers that are not negative prove a bound. Returned too: what STEEP of the limits and of the ripple is worth, and
+    the currents."""
+    unit_A, best, worth, nearest = task.limit_A or 10.0, -math.inf, 0.0, x
+    for _ in range(NEWTON):
+        y = x / unit_A
+        places = task.peaks(x, 1 - ACTS)[0]
+        rows, constants = task.limited(places.kind, places.angle)
+        rows, constants = rows * places.sign[:, None] * unit_A, constants * places.sign
+        error = (task.u @ x - task.h) / task.scale
+        size = np.hypot(error[:, 0], error[:, 1])
+        acts = size > (1 - ACTS) * worst / task.scale
+        u, h, error, size = task.u[acts] * unit_A / task.scale, task.h[acts] / task.scale, error[acts], size[acts]
+        to = error / size[:, None]
+        columns = np.vstack([rows, np.einsum("kc,kcj->kj", to, u), task.mean_u * unit_A / task.scale])
+        beyond = np.concatenate([rows @ y + constants - 1, size - worst / task.scale, [(task.mean(x) - mean) / task.scale]])
+        weight = multipliers(columns, -y)
+        sides = np.concatenate([1 - constants, worst / task.scale + np.einsum("kc,kc->k", to, h), [mean / task.scale]])
+        bound = 3 * unit_A ** 2 * least_copper(columns, sides, weight)
+        if bound > best:
+            best, worth, nearest = bound, 3 * unit_A ** 2 * STEEP * float(weight[:-1].sum()), x
+        bend = np.eye(len(y)) + bend_of(task, places, x, weight[:len(rows)], unit_A)
+        for w, of, t, length in zip(weight[len(rows):-1], u, to, size):
+            along = of.T @ t
+            bend += w / length * (of.T @ of - np.outer(along, along))
+        columns, beyond = columns[weight != 0.0], beyond[weight != 0.0]
+        system = np.block([[bend, columns.T], [columns, np.zeros((len(beyond), len(beyond)))]])
+        x = x + unit_A * np.linalg.solve(system, -np.concatenate([y, beyond]))[:len(y)]
+    return best, worth, nearest
+
+
+def multipliers(columns, side):
+    """The weights of the columns that come nearest to a side, none but the last negative, and none of columns that repeat others."""
+    both = np.vstack([columns, -columns[-1]])
+    length = np.linalg.norm(both, axis=1)
+    weight = nnls((both / length[:, None]).T, side, maxiter=100 * len(both))[0] / length
+    return np.append(weight[:-2], weight[-2] - weight[-1])
+
+
+def bend_of(task, places, x, weight, unit_A, step=1e-3):
+    """Σ weight · g' g'ᵀ/|g''|, of rows g of peaks by differences of sixth and second order over the angle."""
+    rows = [task.limited(places.kind, places.angle + k * step) for k in range(-3, 4)]
+    first = sum(c * (rows[3 + k][0] - rows[3 - k][0]) for k, c in ((1, 0.75), (2, -0.15), (3, 1 / 60))) / step * unit_A
+    value = [places.sign * (r @ x + c) for r, c in rows[2:5]]
+    second = (value[0] - 2 * value[1] + value[2]) / step ** 2
+    return (first * (weight / np.maximum(-second, 1e-9))[:, None]).T @ first
 
 
 def read_csv(path):
@@ -447,7 +565,6 @@ def scenarios(program, source, tally, work, which):
             for of_peak in (0.9, 0.7):
                 compare(program, machine, target, f"scenario {k} {rpm:g} rpm current {of_peak}", tally, work,
                         {**voltage, "limit_A": of_peak * peak})
-        print(f"scenario {k}: {tally.most}", flush=True)
 
 
 def controls(program, source, tally, work):
@@ -492,18 +609,29 @@ def random_machines(program, tally, work, count):
         compare(program, machine, target, f"random {k}", tally, work, limits)
 
 
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("program", type=os.path.abspath)
+    parser.add_argument("source", type=os.path.abspath)
+    parser.add_argument("which", choices=["few", "scenarios", "random"])
+    parser.add_argument("number", type=int, nargs="*", help="of scenarios, or how many random machines")
+    parser.add_argument("--table", help="file for a row of each wish of each case")
+    return parser.parse_args()
+
+
 def main():
-    program, source, which = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), sys.argv[3]
-    tally = Tally()
+    told, tally = arguments(), Tally()
     with tempfile.TemporaryDirectory() as work:
-        if which == "few":
-            controls(program, source, tally, work)
-            scenarios(program, source, tally, work, (2, 8))
-            random_machines(program, tally, work, 6)
-        elif which == "scenarios":
-            scenarios(program, source, tally, work, [int(k) for k in sys.argv[4:]] or range(1, 13))
+        if told.which == "few":
+            controls(told.program, told.source, tally, work)
+            scenarios(told.program, told.source, tally, work, (2, 8))
+            random_machines(told.program, tally, work, 6)
+        elif told.which == "scenarios":
+            scenarios(told.program, told.source, tally, work, told.number or range(1, 13))
         else:
-            random_machines(program, tally, work, int(sys.argv[4]) if len(sys.argv) > 4 else 200)
+            random_machines(told.program, tally, work, *told.number or [200])
+    if told.table:
+        tally.write(told.table)
     print(f"{tally.cases} cases, {tally.limited} in which a limit acts; largest deviations: "
           + ", ".join(f"{k} {v:.2g}" for k, v in tally.most.items()) + f"; steep copper in {len(tally.steep)}")
     for line in [f"steep: {line}" for line in tally.steep] + [f"open: {line}" for line in tally.open] + [f"wrong: {line}" for line in tally.bad]:

@@ -58,7 +58,7 @@ typedef struct {
     const hci_loop_level *levels;    /* of torque, as of hci_emit_loop */
     size_t level_count;              /* entries of levels */
     double torque_Nm;                /* asked of the table */
-    const double *speeds_rad_per_s;  /* mechanical, > 0 */
+    const double *speeds_rad_per_s;  /* mechanical, not 0, of one sign, ascending in size */
     size_t speed_count;              /* entries of speeds_rad_per_s */
     double model_error;     /* 0.1: R, L and flux of the machine are 10 % off in all ways; 0: not asked */
     hci_progress *progress; /* may be NULL */
@@ -76,9 +76,9 @@ typedef struct {
     double voltage_rad_per_s;  /* mechanical: above it the voltage does not do for all orders; HUGE_VAL */
     double sampled_rad_per_s;  /* mechanical: above it the sampling does not do for all orders; HUGE_VAL */
     double measured_rad_per_s; /* mechanical: above it orders lie beyond the measured response; HUGE_VAL */
-    double harmful_rad_per_s[HCI_REMEDIES]; /* mechanical: above it, straight between the speeds, the plain
-                                               sine has less T_ripple at the same torque; HUGE_VAL where it
-                                               has not */
+    double harmful_rad_per_s[HCI_REMEDIES]; /* mechanical, signed as the speeds: beyond it, straight between
+                                               them, the plain sine has less T_ripple at the same torque;
+                                               HUGE_VAL where it has not */
 } hci_speeds;
 
 /* Runs each remedy at each speed. HCI_ERROR_INPUT, _ARGUMENT, _NUMERIC, _MEMORY. *speeds is to be given to
