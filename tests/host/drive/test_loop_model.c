@@ -187,6 +187,22 @@ static void test_poles_of_a_pure_inductance(void)
     }
 }
 
+/* Far below the sampling R + k_p stands for the current, and the integral forgets with (R + k_p)/k_i. */
+static void test_an_integral_that_is_slow(void)
+{
+    hci_loop_model m = {.resistance_ohm = 0.1,
+                        .inductance_H = {5e-4, 5e-4},
+                        .kp_ohm = {1.0, 1.0},
+                        .ki_ohm_per_s = {5.0, 20.0},
+                        .sample_s = SAMPLE_s,
+                        .delay_s = SAMPLE_s};
+    TEST_ASSERT_DOUBLE_WITHIN(2e-3, 1.1 / 5.0, hci_loop_slowest_s(&m));
+    m.ki_ohm_per_s[0] = 20.0;
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, 1.1 / 20.0, hci_loop_slowest_s(&m));
+    m.kp_ohm[0] = 1e3;
+    TEST_ASSERT_TRUE(isinf(hci_loop_slowest_s(&m)));
+}
+
 static void set_kp(hci_loop_model *m, const hci_loop_model *of, double factor)
 {
     for (int axis = 0; axis < 2; ++axis)
@@ -233,6 +249,7 @@ int main(void)
     RUN_TEST(test_reference_is_answered_as_simulated);
     RUN_TEST(test_disturbance_is_answered_as_simulated);
     RUN_TEST(test_poles_of_a_pure_inductance);
+    RUN_TEST(test_an_integral_that_is_slow);
     RUN_TEST(test_largest_pole_tells_whether_the_drive_is_stable);
     return UNITY_END();
 }

@@ -163,6 +163,29 @@ static void test_pi_control_holds_the_torque(void)
     hci_simulation_release(&s);
 }
 
+static double ripple_with_step(const char *step)
+{
+    char rows[256];
+    snprintf(rows, sizeof rows,
+             "duration,0.45,s\nprescribed_speed,300,rpm\ntorque_reference,8,Nm\ncurrent_control,pi,\n"
+             "settle,0.05,s\nstep,%s,us\n",
+             step);
+    hci_simulation s = simulate(&machine_c, rows);
+    const double ripple = s.T_ripple_percent;
+    hci_simulation_release(&s);
+    return ripple;
+}
+
+/* A step that does not divide the 100 µs of a sample changes no sample: 30 µs made one of 90, 40 one of 120.
+ */
+static void test_steps_divide_a_sample(void)
+{
+    const double ripple = ripple_with_step("10");
+    TEST_ASSERT_DOUBLE_WITHIN(0.002 * ripple, ripple, ripple_with_step("30"));
+    TEST_ASSERT_DOUBLE_WITHIN(0.002 * ripple, ripple, ripple_with_step("40"));
+    TEST_ASSERT_DOUBLE_WITHIN(0.002 * ripple, ripple, ripple_with_step("70"));
+}
+
 static void test_limits_and_missing_currents_are_counted(void)
 {
     /* Without reluctance torque no i_d cancels the cogging, wherever there is some. One period of 2048
@@ -303,6 +326,7 @@ int main(void)
     RUN_TEST(test_a_mean_of_rounding_is_none);
     RUN_TEST(test_ripple_goes_with_the_band);
     RUN_TEST(test_pi_control_holds_the_torque);
+    RUN_TEST(test_steps_divide_a_sample);
     RUN_TEST(test_limits_and_missing_currents_are_counted);
     RUN_TEST(test_energy_balances);
     RUN_TEST(test_energy_balances_within_a_period);

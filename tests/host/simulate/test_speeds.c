@@ -113,6 +113,21 @@ static void test_machine_a_is_limited_by_the_hold(void)
     hci_speeds_release(&f);
 }
 
+/* An integral makes the mean exact once it has settled, which takes 55 ms with these gains; the winding
+ * forgets in 5 ms. 2.73 % is what a plant of another kind, with another solver, is left with. */
+static void test_a_slow_loop_is_waited_for(void)
+{
+    const grid g = {&machine_a,
+                    WINDING "current_kp,1,V/A\ncurrent_ki,20,V/(A*s)\ndecoupling,none,\n",
+                    2.4628,
+                    {1000.0},
+                    0.0};
+    hci_speeds s = run(&g);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, 2.4628, s.row[0].remedy[HCI_REMEDY_COMPENSATION].mean_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(0.03, 2.73, ripple(&s, 0, HCI_REMEDY_COMPENSATION));
+    hci_speeds_release(&s);
+}
+
 /* A machine seen in a mirror turns the other way: e(θ) and T_cog(θ) become −e(−θ) and −T_cog(−θ), with phases
  * b and c changed about, and all torque its negative. In place: cosines change their signs. */
 static void mirror(hci_machine *m)
@@ -415,6 +430,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_machine_c_keeps_its_torque);
     RUN_TEST(test_machine_a_is_limited_by_the_hold);
+    RUN_TEST(test_a_slow_loop_is_waited_for);
     RUN_TEST(test_the_other_direction_is_a_mirror_image);
     RUN_TEST(test_other_loops_are_compensated);
     RUN_TEST(test_a_measured_response_does_as_well);
