@@ -249,8 +249,8 @@ static void show_cost(const hci_solution *s)
     const double mean_Nm = s->order_count ? s->order[0].torque_Nm.cosine : 0.0;
     if (s->limit_cost == HCI_COST_COPPER) cli_say("  limits       kept; they cost copper only\n");
     if (s->limit_cost == HCI_COST_RIPPLE)
-        cli_say("  limits       kept; %s is the smallest within them (%.4g N·m)\n", measure_of(s->minimised),
-                s->minimised_Nm);
+        cli_say("  limits       kept; %s is the smallest within them%s with these components (%.4g N·m)\n",
+                measure_of(s->minimised), s->newton_steps > 0 ? " that was found" : "", s->minimised_Nm);
     if (s->limit_cost == HCI_COST_TORQUE) {
         cli_say(
             "  limits       kept; %.6g N·m is the mean torque nearest to %.6g N·m within them that was found "

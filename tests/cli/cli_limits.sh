@@ -95,6 +95,19 @@ small star
 run 1 solve "$m" --target "$t" --limit-voltage 30 --limit-current 1 --speed 3000 -o "$work/none"
 says '^not reached.*, but a limit is not kept' 'no current keeps them; the given one would with all of them wider by [0-9.]* %'
 check "summary.json has no share" grep -q '"exceeded_share":[[:space:]]*[1-9]' "$work/none/summary.json"
+# what a volt more saves is what the next solve widens less by
+share_at() {
+    run 1 solve "$m" --target "$t" --limit-voltage "$1" --limit-current 1 --speed 3000 -o "$work/none"
+    share=$(sed -n 's/^[[:space:]]*"exceeded_share":[[:space:]]*\([-0-9.e]*\).*/\1/p' "$work/none/summary.json")
+}
+share_at 29.9
+less_V=$share
+share_at 30.1
+more_V=$share
+share_at 30
+said=$(grep -o '1 V more of dc link: [0-9.]* %' "$work/stdout" | tr -cd '0-9. ' | awk '{ print $2 }')
+check "1 V more: $said % said, from $less_V to $more_V at 0.2 V more" awk -v said="$said" -v a="$less_V" -v b="$more_V" \
+    'BEGIN { is = (a - b) / 0.2 * 100; exit !(said > 0.98 * is && said < 1.02 * is) }'
 refused() { # EXPRESSION WORDS...: nothing is written
     expression=$1
     shift
@@ -125,8 +138,11 @@ check "a rating is a limit after all" eval "! grep -q 'limit   ' '$work/stdout'"
 run 0 solve "$m" --target "$t" --limit-current 30
 says 'phase current 9\.[0-9]* of 30 A$'
 run 0 solve "$m" --target "$t" --limit-current 30 --speed 1500
-says 'line voltage 60 of 60 V \(machine.csv\)'
+says 'line voltage 60 of 60 V \(machine.csv\)' 'a limit of 30 A was given, above max_current of machine.csv, 8 A'
+run 1 solve "$m" --target "$t" --limit-current a=7
+says 'phase current a 7 of 7 A[^(]*$' 'phase current b [0-9.]* of 8 A \(machine.csv\)'
 run 1 solve "$m" --target "$t" --speed 1500 --limit-voltage 200
+says 'a limit of 200 V was given, above dc_link_voltage of machine.csv, 60 V'
 says 'phase current 8 of 8 A \(machine.csv\)' 'line voltage [0-9.]* of 200 V'
 
 for speed in 0 0.001; do # at standstill there is R·i

@@ -77,8 +77,8 @@ static void take_currents(const hci_machine_data *m, const hci_solve_options *o,
     const double all_A = is_given(o->limit_current_A) ? o->limit_current_A
                          : declared                   ? m->max_current_A
                                                       : HUGE_VAL;
-    b->current_is_declared = declared;
     for (int s = 0; s < 3; ++s) {
+        b->current_is_declared[s] = declared && !l->is_open[s] && !is_given(l->current_A[s]);
         b->current_A[s] = l->is_open[s] ? 0.0 : is_given(l->current_A[s]) ? l->current_A[s] : all_A;
         b->rms_A[s] = is_given(l->rms_A[s]) && !l->is_open[s] ? l->rms_A[s] : HUGE_VAL;
     }

@@ -8,12 +8,12 @@
 typedef struct {
     double current_A[3]; /* largest |current| of each phase; 0: open */
     double rms_A[3];
-    double line_V;            /* largest |line voltage|, or twice that of a phase: */
-    bool sinusoidal;          /* modulation without a zero sequence */
-    double line_V_per_V;      /* of it for 1 V of dc link */
-    double mean_square_A2;    /* of all phases together: copper */
-    double resistance_ohm;    /* by which that is a loss; NAN where not known */
-    bool current_is_declared; /* by the machine, of all phases without one of their own */
+    double line_V;               /* largest |line voltage|, or twice that of a phase: */
+    bool sinusoidal;             /* modulation without a zero sequence */
+    double line_V_per_V;         /* of it for 1 V of dc link */
+    double mean_square_A2;       /* of all phases together: copper */
+    double resistance_ohm;       /* by which that is a loss; NAN where not known */
+    bool current_is_declared[3]; /* by the machine: phases without one of their own */
     bool voltage_is_declared;
 } hci_bounds;
 

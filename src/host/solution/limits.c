@@ -46,20 +46,21 @@ static hci_limit *add_limit(hci_solution *s, hci_limit_kind kind, int phase, dou
 }
 
 /* One entry where all phases are alike, else one for each phase that is limited. */
-static void add_phases(hci_solution *s, hci_limit_kind kind, const double limit[3], bool is_declared)
+static void add_phases(hci_solution *s, hci_limit_kind kind, const double limit[3], const bool is_declared[3])
 {
     const bool alike = limit[0] == limit[1] && limit[1] == limit[2];
     for (int phase = 0; phase < (alike ? 1 : 3); ++phase)
         if (limit[phase] < HUGE_VAL)
-            add_limit(s, kind, alike ? -1 : phase, limit[phase])->is_declared = is_declared;
+            add_limit(s, kind, alike ? -1 : phase, limit[phase])->is_declared = is_declared[phase];
 }
 
 void hci_limits_list(const hci_bounds *b, hci_solution *s)
 {
+    static const bool never[3] = {false, false, false};
     s->limit_count = 0;
     s->resistance_ohm = b->resistance_ohm;
     add_phases(s, HCI_LIMIT_CURRENT, b->current_A, b->current_is_declared);
-    add_phases(s, HCI_LIMIT_RMS, b->rms_A, false);
+    add_phases(s, HCI_LIMIT_RMS, b->rms_A, never);
     if (b->line_V < HUGE_VAL) {
         hci_limit *l = add_limit(s, HCI_LIMIT_VOLTAGE, -1, b->line_V);
         l->is_declared = b->voltage_is_declared;
@@ -354,6 +355,20 @@ void hci_limits_remark_rated(const hci_machine_data *m, hci_solution *s)
             "the peak, %.4g A, is above rated_current, %.4g A, which is the peak of a sine and no "
             "limit; where the drive gives no more, --limit-current %.4g or `max_current` in machine.csv",
             peak_A, rated_A, rated_A);
+}
+
+void hci_limits_remark_declared(const hci_machine_data *m, const hci_bounds *b, hci_solution *s)
+{
+    double most_A = 0.0;
+    const double link_V = b->line_V < HUGE_VAL ? b->line_V / b->line_V_per_V : 0.0;
+    for (int phase = 0; phase < 3; ++phase)
+        if (b->current_A[phase] < HUGE_VAL) most_A = fmax(most_A, b->current_A[phase]);
+    if (m->max_current_A > 0.0 && most_A > m->max_current_A)
+        hci_note_add(&s->remark, "a limit of %.4g A was given, above max_current of machine.csv, %.4g A",
+                     most_A, m->max_current_A);
+    if (m->dc_link_voltage_V > 0.0 && link_V > (1.0 + 1e-9) * m->dc_link_voltage_V)
+        hci_note_add(&s->remark, "a limit of %.4g V was given, above dc_link_voltage of machine.csv, %.4g V",
+                     link_V, m->dc_link_voltage_V);
 }
 
 /* ---- an open phase ---- */

@@ -17,6 +17,10 @@ hci_status hci_limits_check(const hci_machine_data *machine, const hci_solve_opt
  * kind was given. */
 void hci_limits_remark_rated(const hci_machine_data *machine, hci_solution *solution);
 
+/* Says where limits were given that are wider than what the machine declares, which they replace. */
+void hci_limits_remark_declared(const hci_machine_data *machine, const hci_bounds *bounds,
+                                hci_solution *solution);
+
 /* Says in the remark where an open phase shows more than the dc link. */
 void hci_limits_remark_open(const hci_bounds *bounds, hci_solution *solution);
 

@@ -334,7 +334,10 @@ hci_status hci_solve(const hci_machine_data *machine, const hci_solve_options *o
     if (!status) status = hci_bounds_make(machine, options, plain_A(&w.task), &w.bounds, note);
     if (!status) status = solve_task(machine, options, &w, solution, note);
     if (!status) solution->machine = machine->identity;
-    if (!status && !options->limits.ignore_ratings) hci_limits_remark_rated(machine, solution);
+    if (!status && !options->limits.ignore_ratings) {
+        hci_limits_remark_rated(machine, solution);
+        hci_limits_remark_declared(machine, &w.bounds, solution);
+    }
     if (!status) hci_limits_remark_open(&w.bounds, solution);
     if (!status && w.model.left_out > 0) remark_left_out(options->effects, &solution->remark);
     hci_answer_release(&w.answer);

@@ -57,6 +57,18 @@ static bool is_mean_met(const hci_wishes *l, double missed_Nm)
     return missed_Nm <= fmax(tolerance_Nm(l), l->is_far ? ROUGHLY * l->program.scale_Nm : 0.0);
 }
 
+/* A limit that is wider by 1 is wider by 1 + w where all are wider by the share w: so much more does it save.
+ */
+static void scale_gains(hci_limit_optimum *o, double factor)
+{
+    for (int s = 0; s < 3; ++s) {
+        o->current_gain[s] *= factor;
+        o->rms_gain[s] *= factor;
+    }
+    o->voltage_gain *= factor;
+    o->copper_gain *= factor;
+}
+
 /* Widens the limits until there is a current. */
 static hci_status fit(hci_wishes *l, hci_note *note)
 {
@@ -67,6 +79,7 @@ static hci_status fit(hci_wishes *l, hci_note *note)
     if (!status) {
         l->program.widened = o.smallest + 1e-6;
         l->of->solution->exceeded_share = o.smallest;
+        scale_gains(&o, 1.0 + o.smallest);
         note_cost(l, HCI_COST_LIMITS, &o, 1.0);
         hci_wish_take(l, &o);
     }
