@@ -9,3 +9,4 @@ python3 -c 'import clarabel, numpy, scipy' 2>/dev/null || {
     exit 77
 }
 python3 "$1/tests/rigs/limits/clarabel_check.py" "$hci_solve" "$1" few || fail "not the optimum of clarabel"
+python3 "$1/tests/rigs/limits/prices_check.py" "$hci_solve" "$1" || fail "a limit does not cost what is said"
