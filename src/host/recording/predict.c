@@ -7,8 +7,8 @@
 #include "host/base/memory.h"
 #include "host/base/quote.h"
 #include "host/numeric/derivative.h"
-#include "host/recording/acceleration.h"
 #include "host/recording/rotor_frame.h"
+#include "host/recording/speed_variation.h"
 
 /* ---- readings ---- */
 

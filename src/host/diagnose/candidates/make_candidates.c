@@ -204,6 +204,16 @@ static bool is_magnetic(const hci_candidates_source *s, const hci_effect_type *t
     return !type->any_phase || least_A < LITTLE * most_A;
 }
 
+/* Whether a run is of direct current: it turns against the rotor, and what grows with it is of other orders.
+ */
+static bool has_direct(const hci_candidates_source *s)
+{
+    bool any = false;
+    for (size_t r = 0; r < s->samples->run_count; ++r)
+        any = any || (s->use[r] && s->samples->statistics[r].is_direct);
+    return any;
+}
+
 static void add_all(builder *b, const hci_candidates_source *s, hci_effect_survey *x,
                     const hci_candidate_orders *lines)
 {
@@ -219,7 +229,8 @@ static void add_all(builder *b, const hci_candidates_source *s, hci_effect_surve
     x->turn_orders = orders_of(lines, s->machine->pole_pairs, HCI_ORDERS_OF_TURN, MOST_TURN_ORDERS, turn);
     x->load_order = load;
     x->load_orders = orders_of(lines, s->machine->pole_pairs, HCI_ORDERS_OF_LOAD, MOST_TURN_ORDERS, load);
-    x->poles_differ = hci_candidate_orders_poles_differ(lines, (size_t)s->machine->pole_pairs);
+    x->poles_differ =
+        !has_direct(s) && hci_candidate_orders_poles_differ(lines, (size_t)s->machine->pole_pairs);
     b->failed = !hci_flux_orders_find(s, x->has_turn, &flux);
     x->flux_order = flux.order;
     x->flux_orders = flux.count;

@@ -12,8 +12,8 @@
 #include "host/diagnose/prepare/swing.h"
 #include "host/diagnose/prepare/turns.h"
 #include "host/machine/torque_constant.h"
-#include "host/recording/acceleration.h"
 #include "host/recording/rotor_frame.h"
+#include "host/recording/speed_variation.h"
 
 enum {
     BINS_PER_TURN = 4096, /* of a mean over turns */
