@@ -168,11 +168,14 @@ typedef struct {
     size_t slot_orders;       /* entries of slot_order */
     const double *turn_order; /* and those that repeat with the mechanical turn only */
     size_t turn_orders;       /* entries of turn_order */
+    const double *load_order; /* fractional ones of slots and poles that stand out with the current */
+    size_t load_orders;       /* entries of load_order */
     double orders;            /* how many orders they were chosen from */
     const double *flux_order; /* fractions at which cogging and torque with the currents vary alike over the
                                * turn, as the declared ones do with the flux; the strongest first */
     size_t flux_orders;       /* entries of flux_order */
-    bool one_gain;            /* torque with the currents and cogging are off by the same factor */
+    bool poles_differ; /* orders 3, 9, 15 … stand out with the current: north and south poles differ */
+    bool one_gain;     /* torque with the currents and cogging are off by the same factor */
     const hci_effect_speed_mean *of_speed; /* measured torques by the speed, each direction by itself */
     size_t of_speeds;                      /* entries of of_speed */
 } hci_effect_survey;

@@ -46,7 +46,8 @@ enum { MOST_ORDER = 25, MOST_UNBALANCED = 7 /* of sequences that a balanced mach
 #define USUAL   8.0
 #define UNUSUAL 40.0
 
-/* Even harmonics take poles that are not alike, which the declared back-EMF would show already. */
+/* Even harmonics take poles that are not alike, which the declared back-EMF shows already, unless one of the
+ * magnets was weakened since. */
 static bool has_even(const hci_machine *machine)
 {
     for (size_t k = 0; k < machine->back_emf_count; ++k)
@@ -75,7 +76,7 @@ static bool can_act(const hci_effect_survey *survey, int order)
 
 static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
 {
-    const int step = has_even(survey->machine) ? 1 : 2;
+    const int step = survey->poles_differ || has_even(survey->machine) ? 1 : 2;
     const double largest = largest_of(survey->machine), expected = EXPECTED * largest;
     hci_effect_propose(to, SINE, 1, 1.0, 2.0, expected);
     hci_effect_propose(to, COSINE, 1, 1.0, 2.0, expected);

@@ -1,7 +1,7 @@
 /* What repeats with the mechanical turn: an eccentric rotor, uneven magnets, gear mesh. */
 #include "core/effects/type.h"
 
-enum { SINE, IQ_SINE = 2 }; /* sine and cosine in turn */
+enum { SINE, IQ_SINE = 2, ID_SINE = 4 }; /* sine and cosine in turn */
 
 static const hci_effect_parameter PARAMETER[] = {
     HCI_ORDERED("sine", "Nm", "of sin nθ", 1e-6, HCI_PARAMETER_LINEAR),
@@ -10,25 +10,35 @@ static const hci_effect_parameter PARAMETER[] = {
                 HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
     HCI_ORDERED("iq_cosine", "Nm_per_A", "of i_q cos nθ", 1e-6,
                 HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
+    HCI_ORDERED("id_sine", "Nm_per_A", "of i_d sin nθ", 1e-6,
+                HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
+    HCI_ORDERED("id_cosine", "Nm_per_A", "of i_d cos nθ", 1e-6,
+                HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
 };
 
-/* i_q as a back-EMF: ∂i_q/∂i_s = ⅔ sin(θ − 2πs/3), and its derivative by θ_m. */
-static void quadrature(int pole_pairs, double theta_m_rad, double q[3], double slope[3])
+/* A component of the currents as a back-EMF, and its derivative by θ_m. */
+typedef struct {
+    double by_current[3], slope[3];
+} component;
+
+/* ∂i_q/∂i_s = ⅔ sin(θ − 2πs/3), ∂i_d/∂i_s = −⅔ cos(θ − 2πs/3). */
+static component component_at(int pole_pairs, double theta_m_rad, bool direct)
 {
     const double s = 2.0 / 3.0 * sin(pole_pairs * theta_m_rad), c = 2.0 / 3.0 * cos(pole_pairs * theta_m_rad);
-    for (int k = 0; k < 3; ++k)
-        q[k] = slope[k] = 0.0;
-    hci_phases_add(s, c, 1, q);
-    hci_phases_add(pole_pairs * c, -pole_pairs * s, 1, slope);
+    const double x = direct ? -c : s, y = direct ? s : c;
+    component to = {{0.0}, {0.0}};
+    hci_phases_add(x, y, 1, to.by_current);
+    hci_phases_add(pole_pairs * y, -pole_pairs * x, 1, to.slope);
+    return to;
 }
 
-static double of_current(double value, const hci_effect_oscillation *f, const double q[3],
-                         const double q_slope[3], const double i[3], hci_effect_torque *sum)
+static double of_current(double value, const hci_effect_oscillation *f, const component *with,
+                         const double i[3], hci_effect_torque *sum)
 {
     double e[3], slope[3];
     for (int s = 0; s < 3; ++s) {
-        e[s] = f->value * q[s];
-        slope[s] = f->slope * q[s] + f->value * q_slope[s];
+        e[s] = f->value * with->by_current[s];
+        slope[s] = f->slope * with->by_current[s] + f->value * with->slope[s];
     }
     return hci_effect_add_emf(sum, value, e, slope, i);
 }
@@ -37,15 +47,15 @@ static void torque_of_all(const hci_effect *effect, const hci_machine *machine, 
                           hci_effect_torque *sum, double *by_value)
 {
     hci_turning turn = HCI_TURNING;
-    double q[3], q_slope[3];
-    quadrature(machine->pole_pairs, truth->theta_m_rad, q, q_slope);
+    const component q = component_at(machine->pole_pairs, truth->theta_m_rad, false);
+    const component d = component_at(machine->pole_pairs, truth->theta_m_rad, true);
     for (size_t k = 0; k < effect->count; ++k) {
         const hci_effect_term *term = &effect->term[k];
         hci_effect_turn_to(&turn, term->order, machine->pole_pairs, truth->theta_m_rad);
         const hci_effect_oscillation f = hci_effect_oscillate(&turn, term->parameter % 2 == 1);
         double by = f.value;
         if (term->parameter >= IQ_SINE) {
-            by = of_current(term->value, &f, q, q_slope, truth->i_abc, sum);
+            by = of_current(term->value, &f, term->parameter >= ID_SINE ? &d : &q, truth->i_abc, sum);
         } else {
             sum->torque_Nm += term->value * f.value;
             sum->by_angle += term->value * f.slope;
@@ -54,18 +64,28 @@ static void torque_of_all(const hci_effect *effect, const hci_machine *machine, 
     }
 }
 
+static void propose_with_current(const hci_effect_survey *survey, double order,
+                                 const hci_effect_proposals *to)
+{
+    hci_effect_propose(to, IQ_SINE, 2, order, survey->orders, 0.0);
+    hci_effect_propose(to, ID_SINE, 2, order, survey->orders, 0.0);
+}
+
+/* What slots and poles make without a current is cogging. */
 static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
 {
     for (size_t k = 0; k < survey->turn_orders; ++k) {
         hci_effect_propose(to, SINE, 2, survey->turn_order[k], survey->orders, 0.0);
-        hci_effect_propose(to, IQ_SINE, 2, survey->turn_order[k], survey->orders, 0.0);
+        propose_with_current(survey, survey->turn_order[k], to);
     }
+    for (size_t k = 0; k < survey->load_orders; ++k)
+        propose_with_current(survey, survey->load_order[k], to);
 }
 
 const hci_effect_type hci_effect_mechanical_order = {
     .name = "mechanical_order",
-    .equation = "T = Σ (S + S_q i_q) sin nθ + (C + C_q i_q) cos nθ, n = k/p",
-    .signature = "fractional electrical orders, independent of the current or in proportion to it",
+    .equation = "T = Σ (S + S_q i_q + S_d i_d) sin nθ + (C + C_q i_q + C_d i_d) cos nθ, n = k/p",
+    .signature = "fractional electrical orders, independent of the current or in proportion to i_q and i_d",
     HCI_EFFECT_PARAMETERS(PARAMETER),
     .any_phase = true,
     .needs = HCI_EFFECT_NEEDS_TURN,

@@ -179,30 +179,57 @@ static size_t probes_of(size_t n, size_t window)
     return distinct < most ? distinct : most;
 }
 
+static size_t most_of(size_t n)
+{
+    return n / 4 > WINDOW_LEAST ? n / 4 : n < WINDOW_LEAST ? n : WINDOW_LEAST;
+}
+
+/* How the variance of a slope falls with the samples of a window: factor × noise² / samples^power. */
+typedef struct {
+    double noise, factor, power;
+} noise_law;
+
 /* Windows grow until the noise is small against the slope, or until the slopes change by more than noise
  * explains: then a longer one would smooth away what is to be seen (Lepski 1991). */
-static size_t window_of(window_sums *s, size_t n)
+static size_t window_grow(window_sums *s, size_t n, size_t window, const noise_law *law)
 {
     double rate[PROBES];
-    const size_t most = n / 4 > WINDOW_LEAST ? n / 4 : n < WINDOW_LEAST ? n : WINDOW_LEAST;
-    const double quantum = quantum_of(s->x, n), step_s = usual_step(s->t, n, GAP);
-    size_t window = most < WINDOW_LEAST ? most : WINDOW_LEAST;
-    while (window < most && way_over(s->x, n, window) < STEPS_LEAST * quantum)
-        window += window / 2;
-    if (window >= most) return most;
-    /* Quantum after quantum is noise that lasts for as many samples as a quantum does. */
-    const double lasting = quantum > 0.0 ? (double)window * quantum / way_over(s->x, n, window) : 0.0;
-    const double noise = fmax(noise_rms(s->t, s->x, n, step_s), quantum * sqrt(lasting / 12.0)) / step_s;
-    for (size_t next = window + window / 2; next <= most; window = next, next += next / 2) {
+    for (size_t next = window + window / 2; next <= most_of(n); window = next, next += next / 2) {
         const double length = (double)window, longer = (double)next;
         const size_t probes = probes_of(n, window);
-        const double variance = 12.0 * noise * noise / (length * length * length);
+        const double variance = law->factor * law->noise * law->noise / pow(length, law->power);
         const double square = probe(s, n, window, probes, rate) - variance;
         if (variance <= NOISE_SHARE * NOISE_SHARE * square) break;
-        const double explained = variance * (1.0 - pow(length / longer, 3.0));
+        const double explained = variance * (1.0 - pow(length / longer, law->power));
         if (change_by(s, n, window, next, probes, rate) > UNEXPLAINED * explained) break;
     }
     return window;
+}
+
+/* The shortest window that bridges the steps of an encoder; at least `most`: none does. */
+static size_t bridging(const window_sums *s, size_t n, double quantum)
+{
+    const size_t most = most_of(n);
+    size_t window = most < WINDOW_LEAST ? most : WINDOW_LEAST;
+    while (window < most && way_over(s->x, n, window) < STEPS_LEAST * quantum)
+        window += window / 2;
+    return window;
+}
+
+/* Noise of a sample. Quantum after quantum is noise that lasts for as many samples as a quantum does. */
+static double noise_of(const window_sums *s, size_t n, size_t window, double quantum, double step_s)
+{
+    const double lasting = quantum > 0.0 ? (double)window * quantum / way_over(s->x, n, window) : 0.0;
+    return fmax(noise_rms(s->t, s->x, n, step_s), quantum * sqrt(lasting / 12.0));
+}
+
+static size_t window_of(window_sums *s, size_t n)
+{
+    const double quantum = quantum_of(s->x, n), step_s = usual_step(s->t, n, GAP);
+    const size_t window = bridging(s, n, quantum);
+    if (window >= most_of(n)) return most_of(n);
+    const noise_law law = {noise_of(s, n, window, quantum, step_s) / step_s, 12.0, 3.0};
+    return window_grow(s, n, window, &law);
 }
 
 /* ---- pieces without a gap ---- */
@@ -245,6 +272,18 @@ size_t hci_derivative_window(const double *time_s, const double *x, size_t n)
 {
     window_sums sums = {.t = time_s, .x = x};
     return window_of(&sums, n);
+}
+
+/* A parabola that is fitted to w samples with noise σ a step h apart has a second derivative with the
+ * variance 720 σ²/(h⁴ w⁵). */
+size_t hci_derivative_window_of_slope(const double *time_s, const double *x, const double *slope, size_t n)
+{
+    const window_sums read = {.t = time_s, .x = x};
+    window_sums sums = {.t = time_s, .x = slope};
+    const double quantum = quantum_of(x, n), step_s = usual_step(time_s, n, GAP);
+    const size_t window = window_of(&sums, n), bridged = bridging(&read, n, quantum);
+    const noise_law law = {noise_of(&read, n, bridged, quantum, step_s) / (step_s * step_s), 720.0, 5.0};
+    return window_grow(&sums, n, window, &law);
 }
 
 void hci_derivative_over(const double *time_s, const double *x, size_t n, size_t window, double *rate)

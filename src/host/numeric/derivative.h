@@ -11,6 +11,10 @@
  * samples stand between two gaps. time_s: ascending. rate: out, n. O(n). */
 void hci_derivative(const double *time_s, const double *x, size_t n, double *rate);
 
+/* The window where x itself is a slope of what was read: its noise has much in common from sample to sample,
+ * and is told from that of the reading. x: what was read; slope: its derivative. n >= 2. */
+size_t hci_derivative_window_of_slope(const double *time_s, const double *x, const double *slope, size_t n);
+
 /* Samples of that window, at most n, and the slopes over one that is given. */
 size_t hci_derivative_window(const double *time_s, const double *x, size_t n);
 void hci_derivative_over(const double *time_s, const double *x, size_t n, size_t window, double *rate);

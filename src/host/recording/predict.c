@@ -8,6 +8,7 @@
 #include "host/base/quote.h"
 #include "host/numeric/derivative.h"
 #include "host/recording/rotor_frame.h"
+#include "host/recording/speed_variation.h"
 
 /* ---- readings ---- */
 
@@ -33,7 +34,7 @@ static void set_changes(const hci_run *run, int pole_pairs, hci_sample *reading,
 /* work: count. */
 static void set_accelerations(const hci_run *run, hci_sample *reading, double *work)
 {
-    hci_derivative(run->time_s, run->speed_rad_per_s, run->count, work);
+    hci_run_acceleration(run, work);
     for (size_t k = 0; k < run->count; ++k)
         reading[k].acceleration_rad_per_s2 = work[k];
 }

@@ -20,4 +20,9 @@ size_t hci_speed_sign_changes(const double *speed, size_t count);
  * it four times as often as the angle, and is that of the angle on the whole. O(samples). */
 bool hci_speed_sign_is_noise(const hci_run *run, const double *slope);
 
+/* The slope of the speed at each sample of a run with time and speed; where the speed is itself a slope of
+ * the angle, over a window that the noise of the angle asks for. rate_rad_per_s2: out, [count], count >= 2.
+ * O(n). */
+void hci_run_acceleration(const hci_run *run, double *rate_rad_per_s2);
+
 #endif

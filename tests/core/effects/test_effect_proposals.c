@@ -124,7 +124,7 @@ static void proposes(const char *type, const hci_effect_survey *survey, size_t r
 
 static const hci_wave EMF[] = {{1.0, 1, 0.3, 0.4}, {5.0, -1, 0.1, 0.0}};
 static const hci_machine MACHINE = {.pole_pairs = 2, .back_emf = EMF, .back_emf_count = 2};
-static const double SLOTS[] = {12.0, 9.0}, TURNS[] = {0.5, 1.5};
+static const double SLOTS[] = {12.0, 9.0}, TURNS[] = {0.5, 1.5}, LOADS[] = {2.5};
 
 static hci_effect_survey recordings(void)
 {
@@ -143,6 +143,8 @@ static hci_effect_survey recordings(void)
                                .slot_orders = 2,
                                .turn_order = TURNS,
                                .turn_orders = 2,
+                               .load_order = LOADS,
+                               .load_orders = 1,
                                .orders = 36.0};
 }
 
@@ -151,11 +153,15 @@ static void test_what_each_effect_names(void)
 {
     hci_effect_survey s = recordings();
     proposes("cogging", &s, 2, (named[]){{"sine", 2, 12.0, 6.0, 1.2}, {"sine", 2, 9.0, 36.0, 1.2}});
-    proposes("mechanical_order", &s, 4,
+    proposes("mechanical_order", &s, 8,
              (named[]){{"sine", 2, 0.5, 36.0, 0.0},
                        {"iq_sine", 2, 0.5, 36.0, 0.0},
+                       {"id_sine", 2, 0.5, 36.0, 0.0},
                        {"sine", 2, 1.5, 36.0, 0.0},
-                       {"iq_sine", 2, 1.5, 36.0, 0.0}});
+                       {"iq_sine", 2, 1.5, 36.0, 0.0},
+                       {"id_sine", 2, 1.5, 36.0, 0.0},
+                       {"iq_sine", 2, 2.5, 36.0, 0.0},
+                       {"id_sine", 2, 2.5, 36.0, 0.0}});
     proposes("magnet_temperature", &s, 1, (named[]){{"emf_per_kelvin", 1, 0.0, 1.0, 0.003}});
     proposes("friction", &s, 1, (named[]){{"coulomb", 3, 0.0, 1.0, 0.0}});
     proposes("iron_drag", &s, 2,

@@ -66,6 +66,7 @@ static const signature TABLE[] = {
     {"torque_sensor", "time_constant", 0.0, 1e-6, COGGING, 0, 1, 1, {12}},
     {"mechanical_order", "sine", 0.5, 0.01, SINE, 0, 0, 1, {0.5}},
     {"mechanical_order", "iq_sine", 1.5, 0.01, SINE, 1, 0, 1, {1.5}},
+    {"mechanical_order", "id_sine", 1.5, 0.01, SINE, 1, 0, 1, {1.5}},
     {"unequal_magnets", "sine", 0.5, 0.01, SINE, 1, 0, 1, {0.5}},
     {"unequal_magnets", "cosine", 0.5, 0.01, COGGING, ANY, 0, 3, {0.5, 11.5, 12.5}},
     {"stribeck_friction", "excess", 0.0, 0.01, SINE, 0, 0, 1, {0}}, /* with a Stribeck speed far above */

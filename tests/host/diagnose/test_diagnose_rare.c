@@ -1,6 +1,7 @@
 /* Effects that recordings tell only where they vary the right thing: each is hidden by its own equation, and
  * found where that varies, and not named where it is not there. */
 #include "host/base/memory.h"
+#include "host/numeric/derivative.h"
 
 #include "support/diagnosing.h"
 
@@ -161,6 +162,79 @@ static void test_the_rotor_takes_its_part(void)
     TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("rotor_inertia")->verdict);
     TEST_ASSERT_EQUAL_UINT64(1, count_of(HCI_FINDING_ADDED));
     TEST_ASSERT_DOUBLE_WITHIN(0.02 * 2e-4, 2e-4, term("rotor_inertia", "inertia", 0.0)->value);
+}
+
+/* No current, and no speed but the slope of an angle that is read with noise. */
+static void record_ramp(double speed, double acceleration, double inertia_kgm2)
+{
+    hci_run *r = add_run(2400);
+    for (size_t k = 0; k < r->count; ++k) {
+        const double s = (double)k / 1500.0;
+        r->time_s[k] = s;
+        r->theta_m_rad[k] = speed * s + 0.5 * acceleration * s * s + 2e-4 * ref_normal(&seed);
+        rec_phases(0.0, 0.0, 0.0, r->i_A + 3 * k);
+        r->torque_Nm[k] = NOISE_NM * ref_normal(&seed) - inertia_kgm2 * acceleration;
+    }
+    r->speed_window = hci_derivative_window(r->time_s, r->theta_m_rad, r->count);
+    hci_derivative_over(r->time_s, r->theta_m_rad, r->count, r->speed_window, r->speed_rad_per_s);
+}
+
+/* The noise of an acceleration is none of the torque: a lag of the sensor that smooths it is not there. */
+static void test_an_inertia_on_ramps(void)
+{
+    record_ramp(5.0, 50.0, 1e-3);
+    record_ramp(-5.0, -50.0, 1e-3);
+    record_ramp(100.0, -50.0, 1e-3);
+    record_ramp(-100.0, 50.0, 1e-3);
+    record_ramp(40.0, 0.0, 1e-3);
+    record_ramp(-40.0, 0.0, 1e-3);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("rotor_inertia")->verdict);
+    TEST_ASSERT_EQUAL_UINT64(1, count_of(HCI_FINDING_ADDED));
+    TEST_ASSERT_DOUBLE_WITHIN(0.01 * 1e-3, 1e-3, term("rotor_inertia", "inertia", 0.0)->value);
+    for (size_t k = 0; k < 6; ++k)
+        TEST_ASSERT_TRUE(diagnosis.run[k].rms_after_Nm < 1.1 * NOISE_NM);
+}
+
+/* ---- a weak magnet ---- */
+
+/* The flux around the turn, as one coil a phase and pole pair sees it a third of a pole pair later each. */
+static double flux_at(double theta_m)
+{
+    return 0.95 + 0.06 * cos(theta_m - 1.0) + 0.05 * cos(2.0 * theta_m + 0.5) +
+           0.04 * cos(3.0 * theta_m - 2.0);
+}
+
+/* T = Σ e_s i_s flux_s, with i_d and i_q of both signs. */
+static void record_weak_magnet(double speed, double id, double iq)
+{
+    record(1500, &(point){speed, 0.0, 0.0, 0.0, 0.0});
+    hci_run *r = &run[runs.count - 1];
+    for (size_t k = 0; k < r->count; ++k) {
+        const double theta_m = r->theta_m_rad[k];
+        rec_phases(id, iq, P * theta_m, r->i_A + 3 * k);
+        for (int s = 0; s < 3; ++s)
+            r->torque_Nm[k] += K_NM_PER_A * sin(P * theta_m - 2.0 * REF_PI * s / 3.0) *
+                               flux_at(theta_m - 2.0 * REF_PI * s / (3.0 * P)) * r->i_A[3 * k + (size_t)s];
+    }
+}
+
+/* Its torque goes with i_d as with i_q, at fractional orders and, since poles differ, at the third. Where the
+ * flux varies once a turn by 0.06, i_d makes −K i_d 0.06/4 Σ_s sin(7 θ_m − 1 − s 14π/9) of seven a turn. */
+static void test_a_magnet_that_phases_see_in_turn(void)
+{
+    record_weak_magnet(60.0, 0.0, 0.0);
+    record_weak_magnet(60.0, -1.0, 9.0);
+    record_weak_magnet(-150.0, 5.0, 7.0);
+    record_weak_magnet(150.0, -6.0, 4.0);
+    record_weak_magnet(-60.0, 1.0, -8.0);
+    record_weak_magnet(100.0, 0.5, 2.5);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("mechanical_order")->verdict);
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("back_emf")->verdict);
+    TEST_ASSERT_EQUAL_UINT64(2, count_of(HCI_FINDING_ADDED));
+    is_value(-0.05 * K_NM_PER_A, 0.1, term("back_emf", "sine", 1.0));
+    is_value(-0.00373, 0.3, term("mechanical_order", "id_sine", 7.0 / 3.0));
 }
 
 /* ---- a low pass ---- */
@@ -405,6 +479,8 @@ int main(void)
     RUN_TEST(test_drift_in_long_runs);
     RUN_TEST(test_what_stands_still_does_not_drift);
     RUN_TEST(test_the_rotor_takes_its_part);
+    RUN_TEST(test_an_inertia_on_ramps);
+    RUN_TEST(test_a_magnet_that_phases_see_in_turn);
     RUN_TEST(test_filter_of_the_currents);
     RUN_TEST(test_a_short_filter_is_a_delay);
     RUN_TEST(test_weak_magnets_are_no_calibration);

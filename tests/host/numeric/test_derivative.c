@@ -160,6 +160,44 @@ static void test_the_origin_and_unit_of_time_do_not_matter(void)
         TEST_ASSERT_DOUBLE_WITHIN(1e-6 * 20.0, rate[k], 1024.0 * again[k]);
 }
 
+/* ---- the slope of a slope ---- */
+
+/* Of an angle that speeds up at 40 rad/s² and is read with noise, by the slope of its slope. Returns the rms
+ * error of the acceleration by windows that its own noise asks for, and by those of the angle's. */
+static void accelerate(double noise_rad, double swing_rad, double error[2])
+{
+    static double slope[MOST];
+    enum { N = 3000 };
+    for (size_t k = 0; k < N; ++k) {
+        t[k] = (double)k / 1500.0;
+        x[k] = 20.0 * t[k] * t[k] + swing_rad * sin(150.0 * t[k]) + noise_rad * ref_normal(&seed);
+    }
+    hci_derivative(t, x, N, slope);
+    for (int of_slope = 0; of_slope < 2; ++of_slope) {
+        const size_t window =
+            of_slope ? hci_derivative_window_of_slope(t, x, slope, N) : hci_derivative_window(t, slope, N);
+        hci_derivative_over(t, slope, N, window, rate);
+        error[of_slope] = 0.0;
+        for (size_t k = 0; k < N; ++k)
+            error[of_slope] += pow(rate[k] - 40.0 + 22500.0 * swing_rad * sin(150.0 * t[k]), 2.0) / N;
+        error[of_slope] = sqrt(error[of_slope]);
+    }
+}
+
+/* Neighbours of a slope share their noise, which hides it: the noise of what was read tells how long a window
+ * must be. A swing of 63 samples is not smoothed away, nor is anything where there is no noise. */
+static void test_the_slope_of_a_slope(void)
+{
+    double error[2];
+    accelerate(2e-4, 0.0, error);
+    TEST_ASSERT_TRUE(error[0] > 8.0);
+    TEST_ASSERT_TRUE(error[1] < 1.5);
+    accelerate(1e-9, 1e-3, error);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, error[0], error[1]);
+    accelerate(1e-5, 1e-3, error);
+    TEST_ASSERT_TRUE(error[1] < 0.15 * 22.5);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -171,5 +209,6 @@ int main(void)
     RUN_TEST(test_the_steps_of_an_encoder_are_bridged);
     RUN_TEST(test_what_stands_still_has_no_rate);
     RUN_TEST(test_the_origin_and_unit_of_time_do_not_matter);
+    RUN_TEST(test_the_slope_of_a_slope);
     return UNITY_END();
 }

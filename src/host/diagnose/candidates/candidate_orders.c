@@ -211,24 +211,52 @@ static bool is_of_slots(const hci_candidate_orders *lines, size_t periods, size_
     return periods > pole_pairs && periods % 3 == 0 && hci_common_divisor(periods, pole_pairs) > 1;
 }
 
-static double strength(const hci_candidate_orders *lines, size_t k, bool slots)
+/* At one current all that stands still grows with it as well. */
+#define WITH_CURRENT 1.5 /* times what would be explained without */
+
+static bool is_with_current(const hci_candidate_orders *lines, size_t k)
 {
-    return slots ? lines->still[k] : fmax(lines->still[k], lines->with_current[k]);
+    return lines->with_current[k] > WITH_CURRENT * lines->still[k];
 }
 
-size_t hci_candidate_orders_next(const hci_candidate_orders *lines, size_t pole_pairs, bool slots,
+/* 0: not of this kind. */
+static double strength(const hci_candidate_orders *lines, size_t k, size_t pole_pairs, hci_order_kind kind)
+{
+    const size_t periods = k * lines->stride;
+    const bool of_slots = is_of_slots(lines, periods, pole_pairs);
+    switch (kind) {
+    case HCI_ORDERS_OF_SLOTS:
+        return of_slots ? lines->still[k] : 0.0;
+    case HCI_ORDERS_OF_TURN:
+        return of_slots ? 0.0 : fmax(lines->still[k], lines->with_current[k]);
+    case HCI_ORDERS_OF_LOAD:
+        break;
+    }
+    const bool is_load = of_slots && periods % pole_pairs != 0 && is_with_current(lines, k);
+    return is_load ? lines->with_current[k] : 0.0;
+}
+
+size_t hci_candidate_orders_next(const hci_candidate_orders *lines, size_t pole_pairs, hci_order_kind kind,
                                  double *under)
 {
     size_t best = 0;
     double most = HCI_STANDS_OUT;
     for (size_t k = 1; k < lines->count; ++k) {
-        const double x = strength(lines, k, slots);
-        if (is_of_slots(lines, k * lines->stride, pole_pairs) != slots || x >= *under || x <= most) continue;
+        const double x = strength(lines, k, pole_pairs, kind);
+        if (x >= *under || x <= most) continue;
         most = x;
         best = k;
     }
     *under = most;
     return best * lines->stride;
+}
+
+bool hci_candidate_orders_poles_differ(const hci_candidate_orders *lines, size_t pole_pairs)
+{
+    bool differ = false;
+    for (size_t k = 3 * pole_pairs / lines->stride; k < lines->count; k += 6 * pole_pairs / lines->stride)
+        differ = differ || (lines->with_current[k] > HCI_STANDS_OUT && is_with_current(lines, k));
+    return differ;
 }
 
 /* ---- those that grow as nothing known does ---- */

@@ -30,10 +30,20 @@ bool hci_candidate_orders_make(const hci_candidates_source *source, size_t strid
                                hci_candidate_orders *lines);
 void hci_candidate_orders_release(hci_candidate_orders *lines);
 
+typedef enum {
+    HCI_ORDERS_OF_SLOTS, /* of slots and poles, which stand there without a current */
+    HCI_ORDERS_OF_TURN,  /* that repeat with the mechanical turn only */
+    HCI_ORDERS_OF_LOAD   /* of slots and poles, fractional ones that grow with the current */
+} hci_order_kind;
+
 /* The strongest order of its kind that stands out but is weaker than *under, in periods in a turn; 0: none.
- * slots: those of slots and poles, else those that repeat with the turn only. under: in/out. */
-size_t hci_candidate_orders_next(const hci_candidate_orders *lines, size_t pole_pairs, bool slots,
+ * under: in/out. */
+size_t hci_candidate_orders_next(const hci_candidate_orders *lines, size_t pole_pairs, hci_order_kind kind,
                                  double *under);
+
+/* Whether orders 3, 9, 15 … stand out that grow with the current: they take even harmonics of the back-EMF,
+ * which poles that are alike do not make. */
+bool hci_candidate_orders_poles_differ(const hci_candidate_orders *lines, size_t pole_pairs);
 
 /* The order and growth in which no known effect grows, at an order that is not in taken[count], that would
  * explain most. Returns the order, as a multiple of the stride; 0: none does. growth: out. */

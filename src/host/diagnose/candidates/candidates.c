@@ -75,6 +75,13 @@ double hci_candidate_departure(const hci_candidate *x, size_t k)
     return parameter->traits & HCI_PARAMETER_SCALE ? 0.0 : x->term[k].value - x->declared[k];
 }
 
+bool hci_candidate_is_unbalanced(const hci_effect_type *type, size_t parameter, double order)
+{
+    if (!type->propose_coenergy || type->any_phase || parameter >= type->parameter_count) return false;
+    const hci_effect_parameter *p = &type->parameter[parameter];
+    return p->ordered && !p->whole && fabs(remainder(order, 6.0)) > HCI_ORDER_TOLERANCE;
+}
+
 void hci_candidate_shorten(hci_candidate *x)
 {
     --x->count;

@@ -50,6 +50,10 @@ hci_status hci_candidates_add(hci_candidates *candidates, const hci_candidate *c
 /* By how much the value of term k is away from the declared one; 0 of a scale, which is nothing by itself. */
 double hci_candidate_departure(const hci_candidate *candidate, size_t k);
 
+/* Whether a term of the magnetic circuit takes phases that differ. In a balanced machine the orders of the
+ * back-EMF have their own sequence, and those of reluctance and saturation are 6k. */
+bool hci_candidate_is_unbalanced(const hci_effect_type *type, size_t parameter, double order);
+
 /* Leaves the last of several terms out. */
 void hci_candidate_shorten(hci_candidate *candidate);
 

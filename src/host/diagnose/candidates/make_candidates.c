@@ -181,12 +181,12 @@ static hci_effect_survey survey_of(const hci_candidates_source *s)
 }
 
 /* The orders that stand out of the residual, of one kind. Returns how many. */
-static size_t orders_of(const hci_candidate_orders *lines, int pole_pairs, bool slots, size_t most,
+static size_t orders_of(const hci_candidate_orders *lines, int pole_pairs, hci_order_kind kind, size_t most,
                         double *order)
 {
     double under = INFINITY;
     for (size_t n = 0; n < most; ++n) {
-        const size_t periods = hci_candidate_orders_next(lines, (size_t)pole_pairs, slots, &under);
+        const size_t periods = hci_candidate_orders_next(lines, (size_t)pole_pairs, kind, &under);
         if (periods == 0) return n;
         order[n] = (double)periods / (double)pole_pairs;
     }
@@ -204,19 +204,33 @@ static bool is_magnetic(const hci_candidates_source *s, const hci_effect_type *t
     return !type->any_phase || least_A < LITTLE * most_A;
 }
 
+/* Whether a run is of direct current: it turns against the rotor, and what grows with it is of other orders.
+ */
+static bool has_direct(const hci_candidates_source *s)
+{
+    bool any = false;
+    for (size_t r = 0; r < s->samples->run_count; ++r)
+        any = any || (s->use[r] && s->samples->statistics[r].is_direct);
+    return any;
+}
+
 static void add_all(builder *b, const hci_candidates_source *s, hci_effect_survey *x,
                     const hci_candidate_orders *lines)
 {
-    double slot[MOST_SLOT_ORDERS], turn[MOST_TURN_ORDERS];
+    double slot[MOST_SLOT_ORDERS], turn[MOST_TURN_ORDERS], load[MOST_TURN_ORDERS];
     hci_flux_orders flux;
     hci_effect_speed_mean of_speed[HCI_SPEED_MEANS];
     const hci_effect_proposals to = {add, b};
     x->has_turn = lines->stride == 1;
     x->orders = (double)lines->count;
     x->slot_order = slot;
-    x->slot_orders = orders_of(lines, s->machine->pole_pairs, true, MOST_SLOT_ORDERS, slot);
+    x->slot_orders = orders_of(lines, s->machine->pole_pairs, HCI_ORDERS_OF_SLOTS, MOST_SLOT_ORDERS, slot);
     x->turn_order = turn;
-    x->turn_orders = orders_of(lines, s->machine->pole_pairs, false, MOST_TURN_ORDERS, turn);
+    x->turn_orders = orders_of(lines, s->machine->pole_pairs, HCI_ORDERS_OF_TURN, MOST_TURN_ORDERS, turn);
+    x->load_order = load;
+    x->load_orders = orders_of(lines, s->machine->pole_pairs, HCI_ORDERS_OF_LOAD, MOST_TURN_ORDERS, load);
+    x->poles_differ =
+        !has_direct(s) && hci_candidate_orders_poles_differ(lines, (size_t)s->machine->pole_pairs);
     b->failed = !hci_flux_orders_find(s, x->has_turn, &flux);
     x->flux_order = flux.order;
     x->flux_orders = flux.count;

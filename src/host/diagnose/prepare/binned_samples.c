@@ -12,8 +12,8 @@
 #include "host/diagnose/prepare/swing.h"
 #include "host/diagnose/prepare/turns.h"
 #include "host/machine/torque_constant.h"
-#include "host/numeric/derivative.h"
 #include "host/recording/rotor_frame.h"
+#include "host/recording/speed_variation.h"
 
 enum {
     BINS_PER_TURN = 4096, /* of a mean over turns */
@@ -385,7 +385,7 @@ static bool run_fill(const hci_run *run, hci_run_statistics *statistics, bool *a
     hci_rest_find(run, at_rest);
     if (run->torque_source != HCI_TORQUE_MEASURED || !run->time_s || !run->speed_rad_per_s) return true;
     if (run->count < LEAST_OF_SLOPE) return true;
-    hci_derivative(run->time_s, run->speed_rad_per_s, run->count, acceleration);
+    hci_run_acceleration(run, acceleration);
     statistics->rms_acceleration = rms_of(acceleration, run->count);
     return true;
 }

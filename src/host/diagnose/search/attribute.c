@@ -180,14 +180,21 @@ static void ambiguities_forget(hci_attribution *a)
     }
 }
 
+/* What an effect has to explain beside the others. What runs without a current show by themselves proves
+ * itself, unless the sensor that read it lags or swings: then only what that leaves besides. */
+static double least_beside(const hci_search *s, const hci_attribution *a, const hci_verdict *v)
+{
+    if (v->established) return hci_companion_of_sensor(a, v);
+    const double linear = is_of_whole(s, v->type) ? 0.0 : hci_companion_of_series(s->regression, a, v);
+    return fmax(linear, hci_companion_least(s->regression, a, v));
+}
+
 /* What an effect that is in explains, as a share of what it must beside the others; those that prove
  * themselves: INFINITY. */
 static double share_of_least(const hci_search *s, const hci_attribution *a, const hci_verdict *v)
 {
-    if (!v->in || v->established || v->type == &hci_empirical_type) return INFINITY;
-    if (is_of_whole(s, v->type)) return INFINITY;
-    const double linear = hci_companion_of_series(a, v);
-    const double least = fmax(linear, hci_companion_least(s->regression, a, v));
+    if (!v->in || v->type == &hci_empirical_type) return INFINITY;
+    const double least = least_beside(s, a, v);
     return least > 0.0 && v->gain < least ? v->gain / least : (double)INFINITY;
 }
 
@@ -242,7 +249,7 @@ static hci_status verdicts(hci_search *s, hci_attribution *a, hci_note *note)
     }
     if (!status && !hci_search_is_over(s)) status = verdicts_of_others(s, a, note);
     if (!status && !hci_search_is_over(s)) status = verdicts_of_same(s, a, note);
-    if (!status && !a->unknown) status = verdicts_of_equal(s, a, note);
+    if (!status && !hci_search_is_over(s)) status = verdicts_of_equal(s, a, note);
     if (!status && !a->unknown) status = verdicts_of_ratio(s, a, note);
     return status;
 }

@@ -12,7 +12,8 @@
 #define KNEE                                                                                                 \
     0.1 /* of what a power describes of tanh x or x/√(1 + x²) up to x = 1, that a linear part beside it   \
            describes better */
-#define PLAIN 40.0 /* a fall of the score that no such error makes */
+#define NO_CURRENT 0.01 /* of the largest, that is none */
+#define PLAIN      40.0 /* a fall of the score that no such error makes */
 
 /* Whether a type that is in delays, or has a lag or a resonance: the zero of a torque sensor has none. */
 static bool swings(const hci_candidates *model, const hci_effect_type *type)
@@ -113,6 +114,32 @@ static bool is_linear_part(const hci_candidates *model, const hci_effect_type *t
     return any;
 }
 
+/* Whether all that a type has in the model takes phases that differ. */
+static bool is_of_unlike_phases(const hci_candidates *model, const hci_effect_type *type)
+{
+    bool any = false;
+    for (size_t k = 0; k < model->count; ++k) {
+        const hci_candidate *x = &model->candidate[k];
+        if (!x->in || x->type != type) continue;
+        if (!hci_candidate_is_unbalanced(type, x->term[0].parameter, x->term[0].order)) return false;
+        any = true;
+    }
+    return any;
+}
+
+/* Whether each run in use is of direct current or of none. The current vector turns against the rotor there,
+ * and what powers of it miss is of any order of the angle. */
+static bool are_direct(const hci_regression *e)
+{
+    const hci_run_statistics *f = e->samples->statistics;
+    double most_A = 0.0;
+    for (size_t r = 0; r < e->samples->run_count; ++r)
+        if (e->use[r]) most_A = fmax(most_A, f[r].current_A);
+    for (size_t r = 0; r < e->samples->run_count; ++r)
+        if (e->use[r] && f[r].current_A > NO_CURRENT * most_A && !f[r].is_direct) return false;
+    return most_A > 0.0;
+}
+
 /* Reluctance and saturation. */
 static bool is_of_powers(const hci_effect_type *type)
 {
@@ -120,10 +147,12 @@ static bool is_of_powers(const hci_effect_type *type)
 }
 
 /* Others that are in would take the linear part in its place, and the iron be wrong by it. */
-double hci_companion_of_series(const hci_attribution *a, const hci_verdict *v)
+double hci_companion_of_series(const hci_regression *e, const hci_attribution *a, const hci_verdict *v)
 {
+    const hci_candidates *model = &a->model.candidates;
+    const bool unlike = is_of_unlike_phases(model, v->type) && hci_candidates_have_series(model);
     double sum = 0.0;
-    if (!is_linear_part(&a->model.candidates, v->type)) return 0.0;
+    if (!is_linear_part(model, v->type) && !(unlike && are_direct(e))) return 0.0;
     for (size_t r = 0; r < a->types; ++r) {
         const hci_verdict *other = &a->verdict[r];
         if (!other->in || other == v || other->type->any_phase) continue;
@@ -170,6 +199,16 @@ static bool is_within_slope(const hci_regression *e, const hci_candidates *model
             if (model->candidate[k].type == type)
                 longest_s = fmax(longest_s, fabs(model->candidate[k].term[j].value));
     return longest_s < shortest_step_s(e);
+}
+
+double hci_companion_of_sensor(const hci_attribution *a, const hci_verdict *v)
+{
+    for (size_t r = 0; r < a->types; ++r) {
+        const hci_verdict *other = &a->verdict[r];
+        if (other->in && other != v && other->type->lag && swings(&a->model.candidates, other->type))
+            return least_of_any(a, v);
+    }
+    return 0.0;
 }
 
 double hci_companion_least(const hci_regression *e, const hci_attribution *a, const hci_verdict *v)

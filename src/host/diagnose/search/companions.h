@@ -13,10 +13,15 @@ bool hci_are_free_shafts(const hci_regression *regression);
 double hci_companion_least(const hci_regression *regression, const hci_attribution *attribution,
                            const hci_verdict *verdict);
 
+/* The same of an effect that runs without a current show by themselves: beside a lag or a resonance of the
+ * torque sensor through which they were read, what any effect has to reach; 0: there is none. */
+double hci_companion_of_sensor(const hci_attribution *attribution, const hci_verdict *verdict);
+
 /* The same of a back-EMF beside a series in the currents at the same orders: a few powers are not the curve
- * of saturated iron, and a linear part takes some of what they miss. 0: it is none. Not of a whole co-energy.
- */
-double hci_companion_of_series(const hci_attribution *attribution, const hci_verdict *verdict);
+ * of saturated iron, and a linear part takes some of what they miss; with direct current phases that differ
+ * do as well. 0: it is none. Not of a whole co-energy. */
+double hci_companion_of_series(const hci_regression *regression, const hci_attribution *attribution,
+                               const hci_verdict *verdict);
 
 /* What a type in a model gets wrong, as a share of what it explains: effects of the iron that explain less
  * are a part of that. */

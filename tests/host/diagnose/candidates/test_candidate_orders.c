@@ -158,7 +158,7 @@ static void test_orders_end_below_half_the_samples(void)
     hide(SAMPLES - 18, 0.1, 0.0); /* looks like order 18 */
     find(1);
     TEST_ASSERT_TRUE(orders.count <= SAMPLES / 2);
-    TEST_ASSERT_EQUAL_UINT64(18, hci_candidate_orders_next(&orders, P, true, &under));
+    TEST_ASSERT_EQUAL_UINT64(18, hci_candidate_orders_next(&orders, P, HCI_ORDERS_OF_SLOTS, &under));
     for (size_t k = 0; k < COUNT; ++k)
         variance[k] = 1.0;
     find(P);
@@ -176,11 +176,11 @@ static void test_slots_and_the_turn(void)
     hide(1, 0.03, 0.0);
     hide(7, 0.01, 1.0);
     find(1);
-    TEST_ASSERT_EQUAL_UINT64(36, hci_candidate_orders_next(&orders, P, true, &under));
-    TEST_ASSERT_EQUAL_UINT64(18, hci_candidate_orders_next(&orders, P, true, &under));
+    TEST_ASSERT_EQUAL_UINT64(36, hci_candidate_orders_next(&orders, P, HCI_ORDERS_OF_SLOTS, &under));
+    TEST_ASSERT_EQUAL_UINT64(18, hci_candidate_orders_next(&orders, P, HCI_ORDERS_OF_SLOTS, &under));
     under = INFINITY;
-    const size_t first = hci_candidate_orders_next(&orders, P, false, &under);
-    const size_t second = hci_candidate_orders_next(&orders, P, false, &under);
+    const size_t first = hci_candidate_orders_next(&orders, P, HCI_ORDERS_OF_TURN, &under);
+    const size_t second = hci_candidate_orders_next(&orders, P, HCI_ORDERS_OF_TURN, &under);
     TEST_ASSERT_TRUE((first == 1 && second == 7) || (first == 7 && second == 1));
 }
 
@@ -191,17 +191,17 @@ static void test_an_order_of_no_slot(void)
     double under = INFINITY;
     hide(P, 0.05, 0.0);
     find(1);
-    TEST_ASSERT_EQUAL_UINT64(P, hci_candidate_orders_next(&orders, P, false, &under));
+    TEST_ASSERT_EQUAL_UINT64(P, hci_candidate_orders_next(&orders, P, HCI_ORDERS_OF_TURN, &under));
     under = INFINITY;
-    TEST_ASSERT_NOT_EQUAL(P, hci_candidate_orders_next(&orders, P, true, &under));
+    TEST_ASSERT_NOT_EQUAL(P, hci_candidate_orders_next(&orders, P, HCI_ORDERS_OF_SLOTS, &under));
     find(P);
     under = INFINITY;
-    TEST_ASSERT_EQUAL_UINT64(P, hci_candidate_orders_next(&orders, P, true, &under));
+    TEST_ASSERT_EQUAL_UINT64(P, hci_candidate_orders_next(&orders, P, HCI_ORDERS_OF_SLOTS, &under));
     hide(P, -0.05, 0.0);
     hide(11, 0.05, 0.0);
     find(1);
     under = INFINITY;
-    TEST_ASSERT_EQUAL_UINT64(11, hci_candidate_orders_next(&orders, 11, true, &under));
+    TEST_ASSERT_EQUAL_UINT64(11, hci_candidate_orders_next(&orders, 11, HCI_ORDERS_OF_SLOTS, &under));
 }
 
 /* Of one pole pair: teeth that differ make even orders, poles that differ multiples of three, and no load
@@ -212,7 +212,7 @@ static void test_low_orders_of_one_pole_pair(void)
         double under = INFINITY;
         hide(periods, 0.05, 0.0);
         find(1);
-        const size_t next = hci_candidate_orders_next(&orders, 1, true, &under);
+        const size_t next = hci_candidate_orders_next(&orders, 1, HCI_ORDERS_OF_SLOTS, &under);
         TEST_ASSERT_EQUAL(periods > 1, next == periods);
         hide(periods, -0.05, 0.0);
     }
@@ -225,14 +225,14 @@ static void test_orders_of_all_the_slots(void)
     hide(16.0, 0.05, 0.0);
     hide(7.0, 0.02, 0.0);
     find(1);
-    TEST_ASSERT_EQUAL_UINT64(16, hci_candidate_orders_next(&orders, P, false, &under));
+    TEST_ASSERT_EQUAL_UINT64(16, hci_candidate_orders_next(&orders, P, HCI_ORDERS_OF_TURN, &under));
     source.slots = 8;
     hci_candidate_orders_release(&orders);
     find(1);
     under = INFINITY;
-    TEST_ASSERT_EQUAL_UINT64(16, hci_candidate_orders_next(&orders, P, true, &under));
+    TEST_ASSERT_EQUAL_UINT64(16, hci_candidate_orders_next(&orders, P, HCI_ORDERS_OF_SLOTS, &under));
     under = INFINITY;
-    TEST_ASSERT_EQUAL_UINT64(7, hci_candidate_orders_next(&orders, P, false, &under));
+    TEST_ASSERT_EQUAL_UINT64(7, hci_candidate_orders_next(&orders, P, HCI_ORDERS_OF_TURN, &under));
 }
 
 /* Two thirds of a pole pair's orders are shared by groups of poles and slots: of 6 pole pairs order 9. */
@@ -241,11 +241,45 @@ static void test_groups_of_slots(void)
     double under = INFINITY;
     hide(9, 0.05, 0.0);
     find(1);
-    TEST_ASSERT_EQUAL_UINT64(9, hci_candidate_orders_next(&orders, 6, true, &under));
+    TEST_ASSERT_EQUAL_UINT64(9, hci_candidate_orders_next(&orders, 6, HCI_ORDERS_OF_SLOTS, &under));
     under = INFINITY;
-    TEST_ASSERT_NOT_EQUAL(9, hci_candidate_orders_next(&orders, 6, false, &under));
+    TEST_ASSERT_NOT_EQUAL(9, hci_candidate_orders_next(&orders, 6, HCI_ORDERS_OF_TURN, &under));
     under = INFINITY;
-    TEST_ASSERT_EQUAL_UINT64(9, hci_candidate_orders_next(&orders, 7, false, &under));
+    TEST_ASSERT_EQUAL_UINT64(9, hci_candidate_orders_next(&orders, 7, HCI_ORDERS_OF_TURN, &under));
+}
+
+/* What groups of slots and poles share is cogging where it stands without a current; where it grows with the
+ * current it is looked for as such, and whole orders are not. */
+static void test_orders_of_slots_that_grow(void)
+{
+    double under = INFINITY;
+    hide(9, 0.02, 1.0);
+    hide(12, 0.05, 1.0);
+    find(1);
+    TEST_ASSERT_EQUAL_UINT64(9, hci_candidate_orders_next(&orders, 6, HCI_ORDERS_OF_LOAD, &under));
+    TEST_ASSERT_NOT_EQUAL(12, hci_candidate_orders_next(&orders, 6, HCI_ORDERS_OF_LOAD, &under));
+    hide(9, -0.02, 1.0);
+    hide(9, 0.05, 0.0);
+    find(1);
+    under = INFINITY;
+    TEST_ASSERT_NOT_EQUAL(9, hci_candidate_orders_next(&orders, 6, HCI_ORDERS_OF_LOAD, &under));
+}
+
+/* Poles that differ make orders 3, 9, 15 … with the current; no other order says so, nor cogging. */
+static void test_poles_that_differ(void)
+{
+    find(1);
+    TEST_ASSERT_FALSE(hci_candidate_orders_poles_differ(&orders, P));
+    hide(3 * P, 0.05, 0.0);
+    hide(6 * P, 0.02, 1.0);
+    hide(7, 0.02, 1.0);
+    find(1);
+    TEST_ASSERT_FALSE(hci_candidate_orders_poles_differ(&orders, P));
+    hide(9 * P, 0.02, 1.0);
+    find(1);
+    TEST_ASSERT_TRUE(hci_candidate_orders_poles_differ(&orders, P));
+    find(P);
+    TEST_ASSERT_TRUE(hci_candidate_orders_poles_differ(&orders, P));
 }
 
 /* ---- laws of growth ---- */
@@ -300,6 +334,8 @@ int main(void)
     RUN_TEST(test_low_orders_of_one_pole_pair);
     RUN_TEST(test_orders_of_all_the_slots);
     RUN_TEST(test_groups_of_slots);
+    RUN_TEST(test_orders_of_slots_that_grow);
+    RUN_TEST(test_poles_that_differ);
     RUN_TEST(test_growth_that_no_effect_has);
     RUN_TEST(test_laws_of_growth);
     return UNITY_END();

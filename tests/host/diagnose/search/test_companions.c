@@ -118,19 +118,53 @@ static void test_a_linear_part_beside_a_series(void)
     add("reluctance", 1000.0);
     add("cogging", 1e5);
     add_order("back_emf", "sine", 1.0);
-    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_companion_of_series(&attribution, emf));
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_companion_of_series(&dataset.regression, &attribution, emf));
     add_order("saturation", "d1q2_cosine", 0.0);
-    TEST_ASSERT_DOUBLE_WITHIN(0.1, 500.0, hci_companion_of_series(&attribution, emf));
-    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_companion_of_series(&attribution, &attribution.verdict[1]));
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 500.0, hci_companion_of_series(&dataset.regression, &attribution, emf));
+    TEST_ASSERT_EQUAL_DOUBLE(
+        0.0, hci_companion_of_series(&dataset.regression, &attribution, &attribution.verdict[1]));
     add_order("back_emf", "sine", 5.0);
-    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_companion_of_series(&attribution, emf));
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_companion_of_series(&dataset.regression, &attribution, emf));
     add_order("saturation", "d0q3_sine", 6.0);
-    TEST_ASSERT_DOUBLE_WITHIN(0.1, 500.0, hci_companion_of_series(&attribution, emf));
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 500.0, hci_companion_of_series(&dataset.regression, &attribution, emf));
     add("iron_drag", 10.0);
-    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_companion_of_series(&attribution, emf)); /* it would stand in for it */
+    TEST_ASSERT_EQUAL_DOUBLE(
+        0.0, hci_companion_of_series(&dataset.regression, &attribution, emf)); /* it would stand in for it */
     attribution.types -= 1;
     add_order("back_emf", "neg_sine", 1.0);
-    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_companion_of_series(&attribution, emf));
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_companion_of_series(&dataset.regression, &attribution, emf));
+}
+
+/* With direct current, and without any, powers of it miss something at each order, which phases that differ
+ * take as well; currents that turn with the rotor tell them. */
+static void test_unlike_phases_beside_a_series(void)
+{
+    record_two(HCI_TORQUE_MEASURED);
+    const hci_verdict *emf = add("back_emf", 300.0);
+    add("saturation", 4000.0);
+    add_order("back_emf", "pos_sine", 3.0);
+    add_order("saturation", "d1q2_cosine", 0.0);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_companion_of_series(&dataset.regression, &attribution, emf));
+    dataset.samples.statistics[0].is_direct = dataset.samples.statistics[1].is_direct = true;
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 400.0, hci_companion_of_series(&dataset.regression, &attribution, emf));
+    dataset.samples.statistics[0].is_direct = false;
+    dataset.samples.statistics[0].current_A = 0.002 * dataset.samples.statistics[1].current_A;
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 400.0, hci_companion_of_series(&dataset.regression, &attribution, emf));
+}
+
+/* What runs without a current show is as it was read: through a sensor that swings forty may be its error. */
+static void test_what_a_sensor_that_swings_read(void)
+{
+    record_two(HCI_TORQUE_MEASURED);
+    const hci_verdict *cogging = add("cogging", 38.0);
+    add("torque_sensor", 3e5);
+    add_term("torque_sensor", "offset", 0.1);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_companion_of_sensor(&attribution, cogging));
+    add_term("torque_sensor", "natural_frequency", 800.0);
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 40.0, hci_companion_of_sensor(&attribution, cogging));
+    add("saturation", 1e6);
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 40.0, hci_companion_of_sensor(&attribution, cogging));
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_companion_of_sensor(&attribution, &attribution.verdict[1]));
 }
 
 /* A slope of the angle is not known to be at a time better than a sample; what a sensor reads is. */
@@ -156,6 +190,8 @@ int main(void)
     RUN_TEST(test_the_iron_beside_jitter);
     RUN_TEST(test_the_iron_beside_a_series);
     RUN_TEST(test_a_linear_part_beside_a_series);
+    RUN_TEST(test_unlike_phases_beside_a_series);
+    RUN_TEST(test_what_a_sensor_that_swings_read);
     RUN_TEST(test_delays_within_a_slope);
     return UNITY_END();
 }
