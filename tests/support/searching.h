@@ -29,6 +29,7 @@ static inline void search_end(void)
 {
     free(search.residual_Nm);
     search.residual_Nm = NULL;
+    hci_known_residuals_release(&search.residuals);
     hci_fitted_model_release(&search.disbelieved.model);
     hci_fitted_model_release(&model);
     hci_dataset_release(&dataset);

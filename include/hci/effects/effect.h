@@ -302,10 +302,10 @@ struct hci_effect_type {
     void (*undo)(const hci_effect *effect, int pole_pairs, hci_sample *x);
 
     /* The adjoint of `undo`: turns the derivatives of a torque by what `undo` returned (by_angle, by_current,
-     * by_change) into those by what it got. before: what it got. by_value: out, a derivative by each term's
-     * value. */
+     * by_change) into those by what it got. before, after: what it got and returned. by_value: out, a
+     * derivative by each term's value. */
     void (*undo_adjoint)(const hci_effect *effect, int pole_pairs, const hci_sample *before,
-                         hci_effect_torque *by, double *by_value);
+                         const hci_sample *after, hci_effect_torque *by, double *by_value);
 
     /* The derivative of the sum of the three currents that are read by the term's value; the sum of the true
      * ones is 0 in a star. */
@@ -387,6 +387,11 @@ hci_sample hci_effects_undo(const hci_effects *effects, int pole_pairs, const hc
  * exact, which for a linear effect is its regressor. O(terms + harmonics). */
 double hci_effects_predict(const hci_machine *machine, const hci_effects *effects, const hci_sample *reading,
                            double *by_value);
+
+/* The same, for a reading that is predicted many times. known: in/out, of the declared machine at the true
+ * angle that was met last; before the first time its theta_rad is NAN. */
+double hci_effects_predict_again(const hci_machine *machine, const hci_effects *effects,
+                                 const hci_sample *reading, hci_torque_parts *known, double *by_value);
 
 /* The sensor's lag or resonance along a run of n such torques, in place; nothing happens without that effect.
  * time_s: ascending, in steps of any size; a step back starts anew. The sensor starts settled. by_value: n

@@ -67,6 +67,21 @@ typedef struct {
 /* Both at one electrical angle for phase currents in A. Same cost as hci_torque_at. */
 hci_torque_slopes hci_torque_slopes_at(const hci_machine *machine, double theta_rad, const double i_abc[3]);
 
+/* What the torque is made of at one angle, whatever the currents: sums over all harmonics. */
+typedef struct {
+    double theta_rad;               /* electrical */
+    double e[3], e_by_angle[3];     /* back-EMF, N·m/A; all by_angle by θ_m, per mechanical radian */
+    double slope[HCI_PHASE_MATRIX]; /* L', N·m/A² */
+    double slope_by_angle[HCI_PHASE_MATRIX]; /* its derivative */
+    double cogging_Nm, cogging_by_angle;     /* T_cog */
+} hci_torque_parts;
+
+/* parts: out. O(harmonics). */
+void hci_torque_parts_at(const hci_machine *machine, double theta_rad, hci_torque_parts *parts);
+
+/* As hci_torque_slopes_at at the angle of the parts, to the last bit. */
+hci_torque_slopes hci_torque_slopes_of(const hci_torque_parts *parts, const double i_abc[3]);
+
 /* Entries that hci_slope_waves needs for so many current waves. */
 size_t hci_slope_waves_capacity(const hci_machine *machine, size_t current_count);
 

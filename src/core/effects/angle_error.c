@@ -35,16 +35,14 @@ void hci_angle_error_undo(const hci_effect *effect, int periods, hci_sample *x)
 }
 
 /* θ + E(θ) = reading: ∂θ/∂reading = 1/(1 + E'), ∂θ/∂S = −sin(n m θ)/m/(1 + E'). */
-void hci_angle_error_undo_adjoint(const hci_effect *effect, int periods, const hci_sample *before,
+void hci_angle_error_undo_adjoint(const hci_effect *effect, int periods, const hci_sample *after,
                                   hci_effect_torque *by, double *by_value)
 {
-    hci_sample after = *before;
-    hci_angle_error_undo(effect, periods, &after);
-    by->by_angle /= 1.0 + hci_angle_error_at(effect, periods, after.theta_m_rad).slope;
+    by->by_angle /= 1.0 + hci_angle_error_at(effect, periods, after->theta_m_rad).slope;
     hci_turning turn = HCI_TURNING;
     for (size_t j = 0; j < effect->count; ++j) {
         const hci_effect_term *t = &effect->term[j];
-        hci_effect_turn_to(&turn, t->order, periods, after.theta_m_rad);
+        hci_effect_turn_to(&turn, t->order, periods, after->theta_m_rad);
         by_value[j] = -by->by_angle * hci_effect_oscillate(&turn, t->parameter % 2 == 1).value / periods;
     }
 }

@@ -14,7 +14,7 @@ hci_effect_oscillation hci_angle_error_at(const hci_effect *effect, int periods,
 
 /* hci_effect_type.undo and undo_adjoint with E. */
 void hci_angle_error_undo(const hci_effect *effect, int periods, hci_sample *x);
-void hci_angle_error_undo_adjoint(const hci_effect *effect, int periods, const hci_sample *before,
+void hci_angle_error_undo_adjoint(const hci_effect *effect, int periods, const hci_sample *after,
                                   hci_effect_torque *by, double *by_value);
 
 #endif

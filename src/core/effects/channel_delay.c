@@ -12,12 +12,21 @@ static const hci_effect_parameter PARAMETER[] = {
     HCI_PLAIN("torque", "s", "delay of the torque", 0.0, -DBL_MAX, HCI_PARAMETER_WITH_SPEED),
 };
 
-/* x_abc turned with the rotor by an electrical angle; a zero sequence stays. */
-static void turn(double abc[3], double angle_rad)
+/* A turn of the plane of the currents. */
+typedef struct {
+    double s, c;
+} rotation;
+
+static rotation rotation_by(double angle_rad)
+{
+    return (rotation){sin(angle_rad), cos(angle_rad)};
+}
+
+/* x_abc turned with the rotor; a zero sequence stays. */
+static void turn(double abc[3], rotation by)
 {
     const hci_alpha_beta x = hci_clarke(abc);
-    const double s = sin(angle_rad), c = cos(angle_rad);
-    const hci_alpha_beta y = {c * x.alpha - s * x.beta, s * x.alpha + c * x.beta, x.zero};
+    const hci_alpha_beta y = {by.c * x.alpha - by.s * x.beta, by.s * x.alpha + by.c * x.beta, x.zero};
     hci_clarke_inverse(y, abc);
 }
 
@@ -42,17 +51,19 @@ static swing swing_of(double w, double time_s)
  */
 static void advance(hci_sample *x, int pole_pairs, double angle_s, double current_s)
 {
-    const swing on = swing_of(x->swing_rad_per_s, current_s);
     x->theta_m_rad += x->speed_rad_per_s * angle_s;
+    if (current_s == 0.0) return;
+    const swing on = swing_of(x->swing_rad_per_s, current_s);
+    const rotation by = rotation_by(pole_pairs * x->speed_rad_per_s * current_s);
     for (int k = 0; k < 3; ++k) {
         const double rate = x->change_A_per_s[k], curvature = x->curvature_A_per_s2[k];
         x->i_abc[k] += on.by_rate * rate + on.by_curvature * curvature;
         x->change_A_per_s[k] = on.kept * rate + on.by_rate * curvature;
         x->curvature_A_per_s2[k] = on.kept * curvature - on.lost * rate;
     }
-    turn(x->i_abc, pole_pairs * x->speed_rad_per_s * current_s);
-    turn(x->change_A_per_s, pole_pairs * x->speed_rad_per_s * current_s);
-    turn(x->curvature_A_per_s2, pole_pairs * x->speed_rad_per_s * current_s);
+    turn(x->i_abc, by);
+    turn(x->change_A_per_s, by);
+    turn(x->curvature_A_per_s2, by);
 }
 
 /* From the moment of the torque that is read to the moments of the others, and back. */
@@ -73,10 +84,11 @@ static void undo(const hci_effect *effect, int pole_pairs, hci_sample *x)
 /* ∂i/∂t of what undo returned: turn(change) + pω J i, J i = ∂(turned i)/∂angle. */
 static double by_current_time(int pole_pairs, const hci_sample *after, const hci_effect_torque *by)
 {
+    const rotation by_quarter = {1.0, 0.0};
     double quarter[3] = {after->i_abc[0], after->i_abc[1], after->i_abc[2]};
     const double zero = (quarter[0] + quarter[1] + quarter[2]) / 3.0;
     double sum = 0.0;
-    turn(quarter, 0.5 * HCI_PI);
+    turn(quarter, by_quarter);
     for (int k = 0; k < 3; ++k)
         sum += by->by_current[k] *
                (after->change_A_per_s[k] + pole_pairs * after->speed_rad_per_s * (quarter[k] - zero));
@@ -84,19 +96,19 @@ static double by_current_time(int pole_pairs, const hci_sample *after, const hci
 }
 
 static void undo_adjoint(const hci_effect *effect, int pole_pairs, const hci_sample *before,
-                         hci_effect_torque *by, double *by_value)
+                         const hci_sample *after, hci_effect_torque *by, double *by_value)
 {
-    hci_sample after = *before;
-    undo(effect, pole_pairs, &after);
     const double angle = by->by_angle * before->speed_rad_per_s;
-    const double current = by_current_time(pole_pairs, &after, by);
+    const double current = by_current_time(pole_pairs, after, by);
     for (size_t k = 0; k < effect->count; ++k) {
         const size_t parameter = effect->term[k].parameter;
         by_value[k] = parameter == ANGLE ? angle : parameter == CURRENT ? current : -angle - current;
     }
     const double lead_s = hci_effect_value(effect, CURRENT) - hci_effect_value(effect, TORQUE);
-    turn(by->by_current, -pole_pairs * before->speed_rad_per_s * lead_s);
-    turn(by->by_change, -pole_pairs * before->speed_rad_per_s * lead_s);
+    if (lead_s == 0.0) return;
+    const rotation back = rotation_by(-pole_pairs * before->speed_rad_per_s * lead_s);
+    turn(by->by_current, back);
+    turn(by->by_change, back);
     const swing on = swing_of(before->swing_rad_per_s, lead_s);
     for (int k = 0; k < 3; ++k)
         by->by_change[k] = on.kept * by->by_change[k] + on.by_rate * by->by_current[k];

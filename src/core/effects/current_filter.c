@@ -73,8 +73,9 @@ static double along(const double x[3], const double rate[3], const double r[3], 
 
 /* Jᵀ = −J. */
 static void undo_adjoint(const hci_effect *effect, int pole_pairs, const hci_sample *before,
-                         hci_effect_torque *by, double *by_value)
+                         const hci_sample *after, hci_effect_torque *by, double *by_value)
 {
+    (void)after;
     const double tau_s = hci_effect_value(effect, TIME_CONSTANT);
     const double w = pole_pairs * before->speed_rad_per_s;
     const double by_tau = along(by->by_current, before->change_A_per_s, before->i_abc, w) +

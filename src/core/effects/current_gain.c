@@ -38,8 +38,9 @@ static void undo(const hci_effect *effect, int pole_pairs, hci_sample *x)
 
 /* ∂i/∂g = −i_read/(1 + g)², and so the rate of change. */
 static void undo_adjoint(const hci_effect *effect, int pole_pairs, const hci_sample *before,
-                         hci_effect_torque *by, double *by_value)
+                         const hci_sample *after, hci_effect_torque *by, double *by_value)
 {
+    (void)after;
     (void)pole_pairs;
     hci_effect_compute_phase_adjoint(before->computed_phase, by->by_current);
     hci_effect_compute_phase_adjoint(before->computed_phase, by->by_change);

@@ -26,8 +26,9 @@ static void undo(const hci_effect *effect, int pole_pairs, hci_sample *x)
 }
 
 static void undo_adjoint(const hci_effect *effect, int pole_pairs, const hci_sample *before,
-                         hci_effect_torque *by, double *by_value)
+                         const hci_sample *after, hci_effect_torque *by, double *by_value)
 {
+    (void)after;
     (void)pole_pairs;
     hci_effect_compute_phase_adjoint(before->computed_phase, by->by_current);
     for (size_t k = 0; k < effect->count; ++k)
@@ -50,7 +51,8 @@ static double sum_by_value(const hci_effect_term *term, const hci_sample *truth)
     return 1.0;
 }
 
-#define EXPECTED 0.05 /* of the largest current; what stands still while the rotor turns may all be theirs */
+#define EXPECTED 0.05 /* of the largest current; what stands still while the rotor turns may all be theirs   \
+                       */
 
 static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
 {

@@ -55,10 +55,13 @@ size_t hci_effects_terms(const hci_effects *effects)
 
 /* ---- torque ---- */
 
-static hci_effect_torque declared_torque(const hci_machine *machine, const hci_sample *truth)
+/* known: of any angle, or NAN. */
+static hci_effect_torque declared_torque(const hci_machine *machine, const hci_sample *truth,
+                                         hci_torque_parts *known)
 {
     const double theta_rad = machine->pole_pairs * truth->theta_m_rad;
-    const hci_torque_slopes t = hci_torque_slopes_at(machine, theta_rad, truth->i_abc);
+    if (known->theta_rad != theta_rad) hci_torque_parts_at(machine, theta_rad, known);
+    const hci_torque_slopes t = hci_torque_slopes_of(known, truth->i_abc);
     return (hci_effect_torque){.torque_Nm = t.torque_Nm,
                                .by_current = {t.by_current[0], t.by_current[1], t.by_current[2]},
                                .by_angle = t.by_angle};
@@ -168,27 +171,66 @@ hci_sample hci_effects_sense(const hci_effects *effects, int pole_pairs, const h
     return x;
 }
 
-hci_sample hci_effects_undo(const hci_effects *effects, int pole_pairs, const hci_sample *reading)
+/* A step from the reading back to the truth. */
+typedef struct {
+    const hci_effect *effect;
+    hci_sample before; /* what `undo` got */
+} undo_step;
+
+enum { STEPS_KEPT = 16 /* twice as many as there are types with `undo` */ };
+
+/* The effect of step n; NULL behind the last. The last effect in front of the sensors comes first. */
+static const hci_effect *effect_of_step(const hci_effects *effects, size_t n)
 {
-    hci_sample x = *reading;
     for (size_t r = TYPE_COUNT; r-- > 0;)
         for (size_t k = effects->count; k-- > 0 && TYPES[r]->undo;)
-            if (effects->effect[k].type == TYPES[r]) TYPES[r]->undo(&effects->effect[k], pole_pairs, &x);
+            if (effects->effect[k].type == TYPES[r] && n-- == 0) return &effects->effect[k];
+    return NULL;
+}
+
+/* step: out, [STEPS_KEPT], the first ones, or NULL; count: out, of all steps. */
+static hci_sample undo_all(const hci_effects *effects, int pole_pairs, const hci_sample *reading,
+                           undo_step *step, size_t *count)
+{
+    hci_sample x = *reading;
+    *count = 0;
+    for (size_t r = TYPE_COUNT; r-- > 0;)
+        for (size_t k = effects->count; k-- > 0 && TYPES[r]->undo;) {
+            const hci_effect *effect = &effects->effect[k];
+            if (effect->type != TYPES[r]) continue;
+            if (step && *count < STEPS_KEPT) step[*count] = (undo_step){effect, x};
+            ++*count;
+            TYPES[r]->undo(effect, pole_pairs, &x);
+        }
     return x;
 }
 
-/* Back through the chain from the truth; what each step of `undo` got is what `sense` makes of its result. */
-static void add_bench(const hci_effects *effects, int pole_pairs, const hci_sample *truth,
-                      hci_effect_torque *by, double *by_value)
+hci_sample hci_effects_undo(const hci_effects *effects, int pole_pairs, const hci_sample *reading)
 {
-    hci_sample x = *truth;
-    for (size_t r = 0; r < TYPE_COUNT; ++r) {
-        for (size_t k = 0; k < effects->count && TYPES[r]->undo_adjoint; ++k) {
-            const hci_effect *effect = &effects->effect[k];
-            if (effect->type != TYPES[r]) continue;
-            TYPES[r]->sense(effect, pole_pairs, &x);
-            TYPES[r]->undo_adjoint(effect, pole_pairs, &x, by, by_value + first_term(effects, k));
-        }
+    size_t count;
+    return undo_all(effects, pole_pairs, reading, NULL, &count);
+}
+
+/* What step n got: it was kept, or is what `sense` makes of its result. */
+static undo_step step_back(const hci_effects *effects, int pole_pairs, const undo_step *kept, size_t n,
+                           const hci_sample *after)
+{
+    if (n < STEPS_KEPT) return kept[n];
+    undo_step step = {effect_of_step(effects, n), *after};
+    step.effect->type->sense(step.effect, pole_pairs, &step.before);
+    return step;
+}
+
+/* Back through the chain from the truth. */
+static void add_bench(const hci_effects *effects, int pole_pairs, const hci_sample *truth,
+                      const undo_step *kept, size_t count, hci_effect_torque *by, double *by_value)
+{
+    hci_sample after = *truth;
+    for (size_t n = count; n-- > 0;) {
+        const undo_step step = step_back(effects, pole_pairs, kept, n, &after);
+        double *own = by_value + first_term(effects, (size_t)(step.effect - effects->effect));
+        step.effect->type->undo_adjoint(step.effect, pole_pairs, &step.before, &after, by, own);
+        after = step.before;
     }
 }
 
@@ -206,11 +248,21 @@ static void read_torques(const hci_effects *effects, hci_effect_torque *sum, dou
 double hci_effects_predict(const hci_machine *machine, const hci_effects *effects, const hci_sample *reading,
                            double *by_value)
 {
-    const hci_sample truth = hci_effects_undo(effects, machine->pole_pairs, reading);
-    hci_effect_torque sum = declared_torque(machine, &truth);
+    hci_torque_parts unknown;
+    unknown.theta_rad = NAN;
+    return hci_effects_predict_again(machine, effects, reading, &unknown, by_value);
+}
+
+double hci_effects_predict_again(const hci_machine *machine, const hci_effects *effects,
+                                 const hci_sample *reading, hci_torque_parts *known, double *by_value)
+{
+    undo_step step[STEPS_KEPT];
+    size_t steps;
+    const hci_sample truth = undo_all(effects, machine->pole_pairs, reading, by_value ? step : NULL, &steps);
+    hci_effect_torque sum = declared_torque(machine, &truth, known);
     values_clear(effects, by_value);
     add_effects(machine, effects, &truth, IN_MACHINE, IN_FRONT, &sum, by_value);
-    if (by_value) add_bench(effects, machine->pole_pairs, &truth, &sum, by_value);
+    if (by_value) add_bench(effects, machine->pole_pairs, &truth, step, steps, &sum, by_value);
     read_torques(effects, &sum, by_value);
     add_effects(machine, effects, &truth, IN_READING, IN_READING, &sum, by_value);
     return sum.torque_Nm;

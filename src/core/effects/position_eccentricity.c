@@ -22,10 +22,11 @@ static void undo(const hci_effect *effect, int pole_pairs, hci_sample *x)
 }
 
 static void undo_adjoint(const hci_effect *effect, int pole_pairs, const hci_sample *before,
-                         hci_effect_torque *by, double *by_value)
+                         const hci_sample *after, hci_effect_torque *by, double *by_value)
 {
+    (void)before;
     (void)pole_pairs;
-    hci_angle_error_undo_adjoint(effect, 1, before, by, by_value);
+    hci_angle_error_undo_adjoint(effect, 1, after, by, by_value);
 }
 
 static double modify(const hci_effect *effect, const hci_plant_state *plant, double step_s, double *memory,

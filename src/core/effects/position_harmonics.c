@@ -29,9 +29,10 @@ static void undo(const hci_effect *effect, int pole_pairs, hci_sample *x)
 }
 
 static void undo_adjoint(const hci_effect *effect, int pole_pairs, const hci_sample *before,
-                         hci_effect_torque *by, double *by_value)
+                         const hci_sample *after, hci_effect_torque *by, double *by_value)
 {
-    hci_angle_error_undo_adjoint(effect, pole_pairs, before, by, by_value);
+    (void)before;
+    hci_angle_error_undo_adjoint(effect, pole_pairs, after, by, by_value);
 }
 
 /* memory: the pole pairs, which a channel is not told. */

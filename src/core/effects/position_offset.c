@@ -18,8 +18,9 @@ static void undo(const hci_effect *effect, int pole_pairs, hci_sample *x)
 }
 
 static void undo_adjoint(const hci_effect *effect, int pole_pairs, const hci_sample *before,
-                         hci_effect_torque *by, double *by_value)
+                         const hci_sample *after, hci_effect_torque *by, double *by_value)
 {
+    (void)after;
     (void)before;
     for (size_t k = 0; k < effect->count; ++k)
         by_value[k] = -by->by_angle / pole_pairs;

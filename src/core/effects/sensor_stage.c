@@ -23,10 +23,14 @@ double hci_stage_step(const hci_sensor_stage *s, hci_stage_state *m, double step
     return m->y;
 }
 
+static double rate_of(const hci_sensor_stage *s)
+{
+    return s->omega > 0.0 ? s->omega : 1.0 / s->tau_s;
+}
+
 size_t hci_stage_parts(const hci_sensor_stage *s, double step_s)
 {
-    const double rate = s->omega > 0.0 ? s->omega : 1.0 / s->tau_s,
-                 parts = ceil(rate * step_s / LONGEST_STEP);
+    const double parts = ceil(rate_of(s) * step_s / LONGEST_STEP);
     return parts < LEAST_PARTS ? LEAST_PARTS : parts > MOST_PARTS ? MOST_PARTS : (size_t)parts;
 }
 
@@ -176,26 +180,57 @@ void hci_stage_filter(const hci_sensor_stage *s, const hci_effect_run *run, doub
 
 enum { LANES = HCI_EFFECT_SENSORS };
 
+/* Stages side by side: y and v after a part of a step, as part_map of each. */
 typedef struct {
-    double step_s, y_by_y[LANES], y_by_v[LANES], y_by_sum[LANES], v_by_y[LANES], v_by_v[LANES],
-        v_by_sum[LANES];
-    size_t parts; /* of the step */
+    double square[LANES], loss[LANES], tau_s[LANES]; /* ω², 2ζω, τ */
+    double y_by_y[LANES], y_by_v[LANES], y_by_sum[LANES], v_by_y[LANES], v_by_v[LANES], v_by_sum[LANES];
+    double step_s;
+    size_t parts;                    /* of the step */
+    const hci_sensor_stage *fastest; /* takes the most parts */
 } part_maps;
 
-static void part_maps_find(const hci_sensor_stage s[LANES], double step_s, size_t parts, part_maps *m)
+static void part_maps_start(const hci_sensor_stage s[LANES], part_maps *m)
+{
+    *m = (part_maps){.fastest = s};
+    for (size_t k = 0; k < LANES; ++k) {
+        m->square[k] = s[k].omega * s[k].omega;
+        m->loss[k] = 2.0 * s[k].damping * s[k].omega;
+        m->tau_s[k] = s[k].tau_s;
+        if (rate_of(&s[k]) > rate_of(m->fastest)) m->fastest = &s[k];
+    }
+}
+
+static void resonances_find(part_maps *m, double g)
+{
+    for (size_t k = 0; k < LANES; ++k) {
+        const double loss = m->loss[k] * g + m->square[k] * g * g, share = 1.0 / (1.0 + loss);
+        m->v_by_v[k] = (1.0 - loss) * share;
+        m->v_by_sum[k] = g * m->square[k] * share;
+        m->v_by_y[k] = -2.0 * m->v_by_sum[k];
+        m->y_by_y[k] = 1.0 - 2.0 * g * m->v_by_sum[k];
+        m->y_by_v[k] = g * (1.0 + m->v_by_v[k]);
+        m->y_by_sum[k] = g * m->v_by_sum[k];
+    }
+}
+
+static void lags_find(part_maps *m, double g)
+{
+    for (size_t k = 0; k < LANES; ++k) {
+        m->y_by_y[k] = (m->tau_s[k] - g) / (m->tau_s[k] + g);
+        m->y_by_sum[k] = g / (m->tau_s[k] + g);
+        m->y_by_v[k] = m->v_by_y[k] = m->v_by_v[k] = m->v_by_sum[k] = 0.0;
+    }
+}
+
+static void part_maps_find(part_maps *m, double step_s, size_t parts)
 {
     if (m->parts == parts && fabs(m->step_s - step_s) <= SAME_STEP * step_s) return;
     m->step_s = step_s;
     m->parts = parts;
-    for (size_t k = 0; k < LANES; ++k) {
-        const part_map x = part_map_of(&s[k], step_s / (double)parts);
-        m->y_by_y[k] = x.y_by_y;
-        m->y_by_v[k] = x.y_by_v;
-        m->y_by_sum[k] = x.y_by_sum;
-        m->v_by_y[k] = x.v_by_y;
-        m->v_by_v[k] = x.v_by_v;
-        m->v_by_sum[k] = x.v_by_sum;
-    }
+    if (m->fastest->omega > 0.0)
+        resonances_find(m, 0.5 * (step_s / (double)parts));
+    else
+        lags_find(m, 0.5 * (step_s / (double)parts));
 }
 
 typedef struct {
@@ -211,26 +246,15 @@ static void lanes_pass(const part_maps *restrict m, double sum, lanes *restrict 
     }
 }
 
-static size_t most_parts(const hci_sensor_stage s[LANES], double step_s)
-{
-    size_t most = LEAST_PARTS;
-    for (size_t k = 0; k < LANES; ++k) {
-        const size_t parts = hci_stage_parts(&s[k], step_s);
-        most = parts > most ? parts : most;
-    }
-    return most;
-}
-
 /* Sample k, a step after the last one. */
-static void lanes_step(const hci_sensor_stage s[LANES], const hci_effect_run *run, size_t k, part_maps *m,
-                       lanes *x)
+static void lanes_step(const hci_effect_run *run, size_t k, part_maps *m, lanes *x)
 {
     const double *torque = run->torque_Nm + k, step_s = run->time_s[k] - run->time_s[k - 1];
     const bool even = hci_stage_is_even(run->time_s, run->count, k);
     const hci_stage_inputs u = {even ? torque[-2] : 0.0, torque[-1], torque[0], even ? torque[1] : 0.0};
-    const size_t parts = most_parts(s, step_s);
+    const size_t parts = hci_stage_parts(m->fastest, step_s);
     double last = u.from;
-    part_maps_find(s, step_s, parts, m);
+    part_maps_find(m, step_s, parts);
     for (size_t j = 1; j <= parts; ++j) {
         const double next = j < parts ? hci_stage_input_at(even, &u, (double)j / (double)parts) : u.to;
         lanes_pass(m, last + next, x);
@@ -240,11 +264,12 @@ static void lanes_step(const hci_sensor_stage s[LANES], const hci_effect_run *ru
 
 void hci_stage_filter_many(const hci_sensor_stage s[HCI_EFFECT_SENSORS], const hci_effect_run *run, double *y)
 {
-    part_maps m = {.parts = 0};
+    part_maps m;
     lanes x = {{0.0}, {0.0}};
+    part_maps_start(s, &m);
     for (size_t k = 0; k < run->count; ++k) {
         const bool goes_on = k > 0 && run->time_s[k] >= run->time_s[k - 1];
-        if (goes_on) lanes_step(s, run, k, &m, &x);
+        if (goes_on) lanes_step(run, k, &m, &x);
         for (size_t j = 0; j < LANES; ++j) {
             if (!goes_on) x.y[j] = run->torque_Nm[k];
             if (!goes_on) x.v[j] = 0.0;

@@ -52,34 +52,49 @@ void hci_torque_back_emf_at(const hci_machine *machine, double theta_rad, double
     }
 }
 
-/* Adds T_cog and its derivative by θ_m. */
-static void cogging_add(const hci_machine *m, double theta_rad, hci_torque_slopes *sum)
+/* T_cog and its derivative by θ_m. */
+static void cogging_at(const hci_machine *m, double theta_rad, double *torque_Nm, double *by_angle)
 {
     hci_turning at = HCI_TURNING;
+    *torque_Nm = *by_angle = 0.0;
     for (size_t k = 0; k < m->cogging_count; ++k) {
         const hci_harmonic *h = &m->cogging[k];
         hci_turning_to(&at, h->order, theta_rad);
-        sum->torque_Nm += h->sine * at.s + h->cosine * at.c;
-        sum->by_angle += m->pole_pairs * h->order * (h->sine * at.c - h->cosine * at.s);
+        *torque_Nm += h->sine * at.s + h->cosine * at.c;
+        *by_angle += m->pole_pairs * h->order * (h->sine * at.c - h->cosine * at.s);
     }
+}
+
+void hci_torque_parts_at(const hci_machine *machine, double theta_rad, hci_torque_parts *parts)
+{
+    parts->theta_rad = theta_rad;
+    hci_torque_back_emf_at(machine, theta_rad, parts->e, parts->e_by_angle);
+    slope_at(machine, theta_rad, parts->slope, parts->slope_by_angle);
+    cogging_at(machine, theta_rad, &parts->cogging_Nm, &parts->cogging_by_angle);
+}
+
+hci_torque_slopes hci_torque_slopes_of(const hci_torque_parts *parts, const double i_abc[3])
+{
+    double y[3], unused[3];
+    hci_torque_slopes sum = {.torque_Nm = 0.0};
+    const double reluctance_Nm = form(parts->slope, i_abc, y);
+    for (size_t s = 0; s < 3; ++s) {
+        sum.torque_Nm += parts->e[s] * i_abc[s];
+        sum.by_current[s] = parts->e[s] + y[s];
+        sum.by_angle += parts->e_by_angle[s] * i_abc[s];
+    }
+    sum.torque_Nm += parts->cogging_Nm;
+    sum.by_angle += parts->cogging_by_angle;
+    sum.torque_Nm += reluctance_Nm;
+    sum.by_angle += form(parts->slope_by_angle, i_abc, unused);
+    return sum;
 }
 
 hci_torque_slopes hci_torque_slopes_at(const hci_machine *machine, double theta_rad, const double i_abc[3])
 {
-    double e[3], e_by_angle[3], slope[HCI_PHASE_MATRIX], slope_by_angle[HCI_PHASE_MATRIX], y[3], unused[3];
-    hci_torque_slopes sum = {.torque_Nm = 0.0};
-    hci_torque_back_emf_at(machine, theta_rad, e, e_by_angle);
-    slope_at(machine, theta_rad, slope, slope_by_angle);
-    const double reluctance_Nm = form(slope, i_abc, y);
-    for (size_t s = 0; s < 3; ++s) {
-        sum.torque_Nm += e[s] * i_abc[s];
-        sum.by_current[s] = e[s] + y[s];
-        sum.by_angle += e_by_angle[s] * i_abc[s];
-    }
-    cogging_add(machine, theta_rad, &sum);
-    sum.torque_Nm += reluctance_Nm;
-    sum.by_angle += form(slope_by_angle, i_abc, unused);
-    return sum;
+    hci_torque_parts parts;
+    hci_torque_parts_at(machine, theta_rad, &parts);
+    return hci_torque_slopes_of(&parts, i_abc);
 }
 
 /* e, and y = L'i. */

@@ -485,6 +485,51 @@ static void test_derivatives_by_every_parameter(void)
     }
 }
 
+/* More effects between the truth and its readings than a list of one of each type has. */
+static void test_derivatives_by_many_sensors_in_a_row(void)
+{
+    enum { MANY = 24 };
+    static const char *const NAME[] = {"current_gain", "current_offset", "position_eccentricity"};
+    uint64_t seed = 8;
+    hci_effect_term term[MANY];
+    hci_effect effect[MANY];
+    double by[MANY];
+    const hci_effects list = {effect, MANY};
+    const hci_sample x = el_sample(&seed);
+    for (size_t k = 0; k < MANY; ++k) {
+        const double value = 0.01 * ref_uniform(&seed, 0.5, 1.5);
+        term[k] = (hci_effect_term){0, k % 3 == 2 ? 1.0 / 3.0 : 0.0, value, NAN};
+        effect[k] = (hci_effect){hci_effect_type_find(NAME[k % 3]), &term[k], 1};
+    }
+    const double torque = hci_effects_predict(&m.machine, &list, &x, by);
+    for (size_t k = 0; k < MANY; ++k) {
+        variation v = {&list, x, &term[k].value, &x};
+        const double h = 1e-4, found = difference(prediction_at, &v, h);
+        TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-13 * fabs(torque) / h + 1e-7 * (1.0 + fabs(found)), found, by[k],
+                                          NAME[k % 3]);
+    }
+}
+
+/* At the angle of before, at others, and with an angle that effects change. */
+static void test_predicted_again(void)
+{
+    uint64_t seed = 9;
+    el_list l, none = {0};
+    double by[EL_EFFECTS * EL_TERMS], again[EL_EFFECTS * EL_TERMS];
+    hci_torque_parts known = {.theta_rad = NAN};
+    hci_sample x = el_sample(&seed);
+    all_effects(&l, &seed);
+    for (int j = 0; j < 4 * DRAWS; ++j) {
+        const hci_effects *list = j % 4 < 2 ? &l.list : &none.list;
+        if (j % 2 == 0) x = el_sample(&seed);
+        x.i_abc[0] = ref_uniform(&seed, -2.0, 2.0);
+        const double torque = hci_effects_predict(&m.machine, list, &x, by);
+        TEST_ASSERT_EQUAL_DOUBLE(torque, hci_effects_predict_again(&m.machine, list, &x, &known, again));
+        for (size_t k = 0; k < hci_effects_terms(list); ++k)
+            TEST_ASSERT_EQUAL_DOUBLE(by[k], again[k]);
+    }
+}
+
 /* A regressor times its value is the torque, for those that are linear: the sum over a type is its torque. */
 static void test_regressors_of_linear_types(void)
 {
@@ -1057,6 +1102,8 @@ int main(void)
     RUN_TEST(test_linear_parameters);
     RUN_TEST(test_derivatives_by_current_and_angle);
     RUN_TEST(test_derivatives_by_every_parameter);
+    RUN_TEST(test_derivatives_by_many_sensors_in_a_row);
+    RUN_TEST(test_predicted_again);
     RUN_TEST(test_regressors_of_linear_types);
     RUN_TEST(test_readings_of_a_true_state);
     RUN_TEST(test_readings_and_back);

@@ -159,6 +159,24 @@ static void test_slopes_are_derivatives(void)
     }
 }
 
+/* The parts at an angle serve all currents, to the last bit. */
+static void test_parts_do_not_depend_on_the_currents(void)
+{
+    static trial t;
+    uint64_t seed = 36;
+    hci_torque_parts parts;
+    for (int k = 0; k < 300; ++k) {
+        const double theta = ref_uniform(&seed, -7, 7);
+        const double i[3] = {ref_uniform(&seed, -2, 2), ref_uniform(&seed, -2, 2), ref_uniform(&seed, -2, 2)};
+        if (k % 3 == 0) draw(&t, &seed);
+        hci_torque_parts_at(&t.machine, theta, &parts);
+        const hci_torque_slopes a = hci_torque_slopes_at(&t.machine, theta, i),
+                                b = hci_torque_slopes_of(&parts, i);
+        TEST_ASSERT_EQUAL_DOUBLE(theta, parts.theta_rad);
+        TEST_ASSERT_EQUAL_MEMORY(&a, &b, sizeof a);
+    }
+}
+
 /* T is quadratic in i, so that a central difference of any width is its derivative. */
 static void test_gradient_is_the_difference_of_the_torque(void)
 {
@@ -478,6 +496,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_torque_at_is_the_formula);
     RUN_TEST(test_slopes_are_derivatives);
+    RUN_TEST(test_parts_do_not_depend_on_the_currents);
     RUN_TEST(test_gradient_is_the_difference_of_the_torque);
     RUN_TEST(test_spectrum_is_the_transformed_torque);
     RUN_TEST(test_torque_at_orders_not_listed_is_left_out);

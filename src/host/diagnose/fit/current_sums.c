@@ -4,13 +4,11 @@
 
 #define ZEROS_DRIFT 0.05 /* of a sensor's zero, from one run to another */
 
-double hci_current_sum_left(const hci_regression *e, const hci_effects *effects,
-                            const hci_binned_sample *sample)
+double hci_current_sum_of(const hci_binned_sample *sample, const hci_sample *truth)
 {
-    const hci_sample truth = hci_effects_undo(effects, e->machine->pole_pairs, &sample->reading);
     double left_A = sample->sum_A;
     for (int phase = 0; phase < 3; ++phase)
-        left_A -= sample->reading.i_abc[phase] - truth.i_abc[phase];
+        left_A -= sample->reading.i_abc[phase] - truth->i_abc[phase];
     return left_A;
 }
 
@@ -22,7 +20,8 @@ double hci_current_sums_rms(const hci_regression *e, const hci_effects *effects)
         if (!(deviation_A > 0.0)) continue;
         for (size_t k = s->first; k < s->first + s->count; ++k) {
             const hci_binned_sample *sample = &e->samples->sample[k];
-            const double left = hci_current_sum_left(e, effects, sample) / deviation_A;
+            const hci_sample truth = hci_effects_undo(effects, e->machine->pole_pairs, &sample->reading);
+            const double left = hci_current_sum_of(sample, &truth) / deviation_A;
             square += sample->count * left * left;
             count += sample->count;
         }

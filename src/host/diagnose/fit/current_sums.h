@@ -5,9 +5,9 @@
 
 #include "host/diagnose/fit/regression.h"
 
-/* The sum of the readings of one sample, without what sensors add to it. A. */
-double hci_current_sum_left(const hci_regression *regression, const hci_effects *effects,
-                            const hci_binned_sample *sample);
+/* The sum of the readings of one sample, without what sensors add to it. truth: hci_effects_undo of its
+ * reading. A. */
+double hci_current_sum_of(const hci_binned_sample *sample, const hci_sample *truth);
 
 /* Root mean square over the runs in use whose sums say something, in units of the noise of a sample; 0: none
  * does. O(samples·terms). */

@@ -13,6 +13,8 @@
 
 enum { LEAST_SAMPLES = 16 }; /* for the noise of that sum */
 
+enum { MOST_PARTS = 200000 }; /* samples of which the torque is kept in parts: 35 MB */
+
 /* Noise of i_a + i_b + i_c from its changes between samples; where it is nothing but rounding it was not
  * measured. */
 static double sum_deviation_A(const hci_run *r)
@@ -29,18 +31,36 @@ static double sum_deviation_A(const hci_run *r)
     return deviation > ROUNDING * largest ? deviation : (double)NAN;
 }
 
+/* Of no angle yet. */
+static hci_torque_parts *parts_new(size_t samples)
+{
+    hci_torque_parts *parts = hci_memory_new(samples + 1, sizeof *parts);
+    for (size_t k = 0; parts && k < samples; ++k)
+        parts[k].theta_rad = NAN;
+    return parts;
+}
+
 static hci_status evidence_make(const hci_machine_data *machine, const hci_effects *declared,
                                 const hci_runs *runs, hci_dataset *b, hci_note *note)
 {
     hci_regression *e = &b->regression;
     b->fit = hci_memory_new(2 * runs->count + 1, sizeof *b->fit);
     b->index_offset_rad = hci_memory_new(runs->count + 1, sizeof *b->index_offset_rad);
-    *e = (hci_regression){&machine->model, declared, &b->samples, runs->run, b->fit,    false, NULL, NULL,
-                          &b->known,       &b->work, false,       NULL,      {0.0, 0.0}};
+    *e = (hci_regression){.machine = &machine->model,
+                          .declared = declared,
+                          .declared_constant = hci_torque_constant(&machine->model, declared),
+                          .samples = &b->samples,
+                          .runs = runs->run,
+                          .use = b->fit,
+                          .known = &b->known,
+                          .columns = &b->columns,
+                          .work = &b->work};
     e->saliency = hci_saliency_width_of(machine);
     e->noise = hci_memory_new(b->samples.segment_count + 1, sizeof *e->noise);
     e->sum_deviation_A = hci_memory_new(runs->count + 1, sizeof *e->sum_deviation_A);
-    if (!b->fit || !b->index_offset_rad || !e->noise || !e->sum_deviation_A)
+    const bool keeps = b->samples.count < MOST_PARTS;
+    if (keeps) e->parts = parts_new(b->samples.count);
+    if (!b->fit || !b->index_offset_rad || !e->noise || !e->sum_deviation_A || (keeps && !e->parts))
         return hci_note_memory(note, NULL, "the recordings");
     b->any = b->fit + runs->count;
     for (size_t k = 0; k < runs->count; ++k) {
@@ -143,9 +163,11 @@ hci_status hci_dataset_make(const hci_machine_data *machine, const hci_effects *
 void hci_dataset_release(hci_dataset *b)
 {
     hci_known_equations_release(&b->known);
+    hci_known_columns_release(&b->columns);
     hci_memory_free(b->index_offset_rad);
     hci_memory_free(b->fit);
     hci_memory_free(b->regression.noise);
+    hci_memory_free(b->regression.parts);
     hci_memory_free(b->regression.sum_deviation_A);
     hci_binned_samples_release(&b->samples);
     memset(b, 0, sizeof *b);

@@ -6,6 +6,7 @@
 #define HCI_SRC_HOST_DIAGNOSE_FIT_DATASET_H
 
 #include "hci/host/machine/machine.h"
+#include "host/diagnose/fit/known_columns.h"
 #include "host/diagnose/fit/known_equations.h"
 #include "host/diagnose/fit/regression.h"
 
@@ -14,6 +15,7 @@ typedef struct {
     hci_binned_samples samples;
     hci_regression regression; /* uses the runs to be fitted */
     hci_known_equations known;
+    hci_known_columns columns;
     double work;              /* as hci_regression.work */
     bool *fit, *any;          /* of each run */
     double *index_offset_rad; /* of each run: its angle was ahead by this and has been turned back */

@@ -5,6 +5,7 @@
 
 #include "host/base/memory.h"
 #include "host/diagnose/fit/current_sums.h"
+#include "host/diagnose/fit/known_columns.h"
 #include "host/diagnose/fit/known_equations.h"
 #include "host/diagnose/fit/predicted_reading.h"
 
@@ -18,10 +19,14 @@ enum { BLOCK = 120 }; /* rows, longer than anything in the noise is correlated *
 typedef struct {
     const hci_regression *regression;
     const hci_model *model;
+    hci_column_plan plan; /* what of the model is predicted, and what is known */
     hci_normal_equations *normal;
-    hci_scatter *scatter; /* or NULL */
-    double *x, *y;        /* rows of a segment: [samples][columns] and [samples] */
-    double *constant;     /* [samples], of the same rows: what a constant torque leaves in them */
+    hci_scatter *scatter;         /* or NULL */
+    double *x, *y;                /* rows of a segment: [samples][columns] and [samples] */
+    double *constant;             /* [samples], of the same rows: what a constant torque leaves in them */
+    bool all;                     /* candidates that are not in, too */
+    size_t *summed, summed_count; /* columns that show in sums of the currents, ascending */
+    hci_normal_equations sums;    /* of these, from rows of such sums */
 } filling;
 
 /* ---- what a run can show ---- */
@@ -91,19 +96,30 @@ static void constants_free(const filling *f, const hci_segment *s, const hci_noi
         take_constant_out(f->constant, square, f->x + c, s->count, f->model->columns);
 }
 
+/* What the derivatives of a segment have been multiplied with. */
+static double scale_of(const filling *f, const hci_segment *s, const hci_predicted_reading *predicted)
+{
+    const bool holds = f->regression->runs[s->run].torque_source == HCI_TORQUE_HOLDING;
+    return holds ? predicted->holding_scale : 1.0;
+}
+
+/* Of a sample that tells nothing. */
+static void row_clear(const filling *f, size_t k)
+{
+    f->y[k] = 0.0;
+    memset(f->x + k * f->model->columns, 0, f->model->columns * sizeof *f->x);
+}
+
 /* Rows of a segment, weighted and whitened. */
 static void torque_rows(const filling *f, const hci_segment *s, const hci_predicted_reading *predicted)
 {
     const hci_model *m = f->model;
     const hci_binned_sample *sample = f->regression->samples->sample + s->first;
     const hci_noise *noise = hci_regression_noise(f->regression, s);
+    hci_column_plan_fill(&f->plan, s, scale_of(f, s, predicted), predicted->by_value, f->x);
     for (size_t k = 0; k < s->count; ++k) {
-        const double *from = predicted->by_value + k * predicted->terms;
-        const double tells = sample[k].count > 0.0 ? 1.0 : 0.0;
-        double *to = f->x + k * m->columns;
-        f->y[k] = tells * (sample[k].torque_Nm - predicted->torque_Nm[k]);
-        for (size_t c = 0; c < m->columns; ++c)
-            to[c] = tells * from[m->column[c].place];
+        f->y[k] = sample[k].torque_Nm - predicted->torque_Nm[k];
+        if (!(sample[k].count > 0.0)) row_clear(f, k);
     }
     hci_noise_whiten(noise, f->y, s->count, 1);
     hci_noise_whiten(noise, f->x, s->count, m->columns);
@@ -115,14 +131,13 @@ static void torque_rows(const filling *f, const hci_segment *s, const hci_predic
 static void sum_row(const filling *f, const hci_binned_sample *sample, double deviation_A, double *x,
                     double *y)
 {
-    const hci_model *m = f->model;
-    const hci_sample truth = hci_effects_undo(&m->list, f->regression->machine->pole_pairs, &sample->reading);
+    const hci_sample truth =
+        hci_effects_undo(&f->model->list, f->regression->machine->pole_pairs, &sample->reading);
     const double weight = sqrt(sample->count) / deviation_A;
-    *y = weight * hci_current_sum_left(f->regression, &m->list, sample);
-    for (size_t c = 0; c < m->columns; ++c) {
-        const hci_candidate *s = m->column[c].candidate;
-        x[c] =
-            s->type->sum_by_value ? weight * s->type->sum_by_value(&s->term[m->column[c].term], &truth) : 0.0;
+    *y = weight * hci_current_sum_of(sample, &truth);
+    for (size_t k = 0; k < f->summed_count; ++k) {
+        const hci_model_column *c = &f->model->column[f->summed[k]];
+        x[k] = weight * c->candidate->type->sum_by_value(&c->candidate->term[c->term], &truth);
     }
 }
 
@@ -133,7 +148,7 @@ static bool sum_rows(const filling *f, const hci_segment *s)
     const double deviation_A = f->regression->sum_deviation_A[s->run];
     if (!(deviation_A > 0.0)) return false;
     for (size_t k = 0; k < s->count; ++k)
-        sum_row(f, &f->regression->samples->sample[s->first + k], deviation_A, f->x + k * f->model->columns,
+        sum_row(f, &f->regression->samples->sample[s->first + k], deviation_A, f->x + k * f->summed_count,
                 f->y + k);
     return true;
 }
@@ -155,25 +170,50 @@ static size_t zero_rows(const filling *f, const hci_segment *s)
     return left.count;
 }
 
-static void scatter_add(const filling *f, size_t rows, size_t block)
+/* column: of the normal equations, for each of so many that the rows have; NULL: all of them. */
+static void scatter_add(const filling *f, const size_t *column, size_t columns, size_t rows, size_t block)
 {
     const size_t n = f->normal->n;
     double *square = f->scatter->square, *sum = square + n * n;
     for (size_t from = 0; from + block / 2 < rows; from += block, ++f->scatter->blocks) {
         memset(sum, 0, n * sizeof *sum);
         for (size_t k = from; k < rows && k < from + block; ++k)
-            for (size_t c = 0; c < n; ++c)
-                sum[c] += f->x[k * n + c] * f->y[k];
+            for (size_t c = 0; c < columns; ++c)
+                sum[column ? column[c] : c] += f->x[k * columns + c] * f->y[k];
         for (size_t i = 0; i < n; ++i)
             for (size_t j = 0; j < n; ++j)
                 square[i * n + j] += sum[i] * sum[j];
     }
 }
 
+static size_t block_of(const hci_segment *s)
+{
+    return (size_t)(BLOCK / hci_segment_joined(s));
+}
+
 static void rows_add(const filling *f, const hci_segment *s)
 {
     hci_normal_equations_add(f->normal, f->x, f->y, s->count);
-    if (f->scatter) scatter_add(f, s->count, (size_t)(BLOCK / hci_segment_joined(s)));
+    if (f->scatter) scatter_add(f, NULL, f->normal->n, s->count, block_of(s));
+}
+
+/* Only few columns show in sums of currents. */
+static void sums_add(filling *f, const hci_segment *s)
+{
+    hci_normal_equations_add(&f->sums, f->x, f->y, s->count);
+    if (f->scatter) scatter_add(f, f->summed, f->summed_count, s->count, block_of(s));
+}
+
+/* All of them, to the rest. They do not count as rows. */
+static void sums_join(const filling *f)
+{
+    const size_t n = f->normal->n, few = f->summed_count;
+    f->normal->square += f->sums.square;
+    for (size_t i = 0; i < few; ++i) {
+        f->normal->moment[f->summed[i]] += f->sums.moment[i];
+        for (size_t j = 0; j <= i; ++j)
+            f->normal->gram[f->summed[i] * n + f->summed[j]] += f->sums.gram[i * few + j];
+    }
 }
 
 /* Bins that were joined have left out what they differed by, which is noise whatever the model. */
@@ -186,15 +226,15 @@ static void joined_add(const filling *f, const hci_segment *s)
 
 /* Sums and zeros of currents inform, but the price of a parameter is that of torques: they do not count as
  * rows. */
-static void segment_add(const filling *f, const hci_segment *s, hci_predicted_reading *predicted)
+static void segment_add(filling *f, const hci_segment *s, hci_predicted_reading *predicted)
 {
-    hci_predicted_reading_fill(f->regression, &f->model->list, s, predicted);
-    hci_regression_count(f->regression, s->count, predicted->terms, f->model->columns);
+    hci_predicted_reading_fill(f->regression, &f->plan.list, s, predicted);
+    hci_regression_count(f->regression, s->count, hci_effects_terms(&f->model->list), f->model->columns);
     torque_rows(f, s, predicted);
     rows_add(f, s);
     joined_add(f, s);
+    if (sum_rows(f, s)) sums_add(f, s);
     const double rows = f->normal->rows;
-    if (sum_rows(f, s)) rows_add(f, s);
     hci_normal_equations_add(f->normal, f->x, f->y, zero_rows(f, s));
     f->normal->rows = rows;
 }
@@ -239,25 +279,51 @@ static void expectations_add(const hci_model *m, hci_normal_equations *normal)
 
 /* ---- all of it ---- */
 
-/* Sums over all samples. False when memory is out. */
-static bool rows_fill(filling *f)
+static bool rows_reserve(filling *f)
 {
-    const hci_regression *e = f->regression;
-    const size_t longest = hci_segment_longest(e->samples), n = f->model->columns;
+    const size_t longest = hci_segment_longest(f->regression->samples), n = f->model->columns;
     const size_t most = longest > PHASES ? longest : PHASES;
-    hci_predicted_reading predicted;
     f->x = hci_memory_new(most * (n + 2), sizeof *f->x);
-    if (!f->x) return false;
+    f->summed = hci_memory_new(n + 1, sizeof *f->summed);
+    if (!f->x || !f->summed) return false;
     f->y = f->x + most * n;
     f->constant = f->y + most;
-    const bool made = hci_predicted_reading_make(e, &f->model->list, true, &predicted);
+    for (size_t c = 0; c < n; ++c)
+        if (f->model->column[c].candidate->type->sum_by_value) f->summed[f->summed_count++] = c;
+    return hci_normal_equations_start(&f->sums, f->summed_count);
+}
+
+static void rows_release(filling *f)
+{
+    hci_memory_free(f->x);
+    hci_memory_free(f->summed);
+    hci_normal_equations_release(&f->sums);
+}
+
+/* Sums over all samples. False when memory is out. */
+static bool rows_add_all(filling *f)
+{
+    const hci_regression *e = f->regression;
+    hci_predicted_reading predicted;
+    const bool made = rows_reserve(f) && hci_predicted_reading_make(e, &f->plan.list, true, &predicted);
     for (const hci_segment *s = NULL; made && (s = hci_regression_next(e, s)) != NULL;)
         segment_add(f, s, &predicted);
     if (made) {
+        hci_column_plan_keep(&f->plan);
+        sums_join(f);
         hci_normal_equations_finish(f->normal);
         hci_predicted_reading_release(&predicted);
     }
-    hci_memory_free(f->x);
+    rows_release(f);
+    return made;
+}
+
+/* Nearly all candidates of a long list are nothing yet, and will be met again. */
+static bool rows_fill(filling *f)
+{
+    if (!hci_column_plan_make(f->regression, f->model, f->all, &f->plan)) return false;
+    const bool made = rows_add_all(f);
+    hci_column_plan_release(&f->plan);
     return made;
 }
 
@@ -297,7 +363,7 @@ static hci_status normal_make(const hci_regression *e, const hci_candidates *can
                               hci_normal_equations *normal, hci_scatter *scatter, hci_note *note)
 {
     hci_model model;
-    filling f = {e, &model, normal, scatter, NULL, NULL, NULL};
+    filling f = {.regression = e, .model = &model, .normal = normal, .scatter = scatter, .all = all};
     memset(normal, 0, sizeof *normal);
     if (scatter) memset(scatter, 0, sizeof *scatter);
     const hci_status status = hci_model_make(e->declared, candidates, all, &model, note);

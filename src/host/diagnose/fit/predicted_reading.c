@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/diagnose/fit/shorter_list.h"
 #include "host/diagnose/prepare/turns.h"
 #include "host/machine/torque_constant.h"
 #include "host/numeric/slope_average.h"
@@ -131,7 +132,7 @@ static double holding_scale(const hci_regression *e, const hci_effects *effects)
     for (size_t r = 0; r < e->samples->run_count; ++r)
         holds = holds || (e->use[r] && reads_current(&e->runs[r]));
     if (!holds) return 1.0;
-    const double declared = fabs(hci_torque_constant(e->machine, e->declared));
+    const double declared = fabs(e->declared_constant);
     const double modelled = fabs(hci_torque_constant(e->machine, effects));
     if (!(declared > 0.0) || fabs(modelled - declared) < SAME_SCALE * declared) return 1.0;
     return modelled * LARGEST_SCALE > declared ? declared / modelled : LARGEST_SCALE;
@@ -150,19 +151,30 @@ static void constant_differentiate(const hci_regression *e, const hci_effects *e
         o->constant_by_value[c] *= constant != 0.0 ? 1.0 / constant : 0.0;
 }
 
+static bool present_make(const hci_effects *effects, hci_predicted_reading *o)
+{
+    bool *left = hci_memory_new(o->terms + 1, sizeof *left);
+    o->present_effect = hci_memory_new(effects->count + 1, sizeof *o->present_effect);
+    o->present_term = hci_memory_new(o->terms + 1, sizeof *o->present_term);
+    const bool made = left && o->present_effect && o->present_term;
+    if (made) o->present = hci_effects_present(effects, o->present_effect, o->present_term, left);
+    hci_memory_free(left);
+    return made;
+}
+
 bool hci_predicted_reading_make(const hci_regression *e, const hci_effects *effects, bool derivatives,
                                 hci_predicted_reading *o)
 {
     const size_t most = longest_run_through(e, has_dynamics(effects));
     memset(o, 0, sizeof *o);
     o->terms = hci_effects_terms(effects);
-    o->holding_scale = holding_scale(e, effects);
     o->torque_Nm = hci_memory_new(4 * most + 5 * o->terms + 2, sizeof *o->torque_Nm);
     if (derivatives) o->by_value = hci_memory_new(most * (o->terms + 1), sizeof *o->by_value);
-    if (!o->torque_Nm || (derivatives && !o->by_value)) {
+    if (!o->torque_Nm || (derivatives && !o->by_value) || !present_make(effects, o)) {
         hci_predicted_reading_release(o);
         return false;
     }
+    o->holding_scale = holding_scale(e, &o->present);
     o->time_s = o->torque_Nm + most;
     o->work = o->time_s + most;
     o->sum = o->work + 2 * most;
@@ -176,6 +188,8 @@ void hci_predicted_reading_release(hci_predicted_reading *o)
 {
     hci_memory_free(o->torque_Nm);
     hci_memory_free(o->by_value);
+    hci_memory_free(o->present_effect);
+    hci_memory_free(o->present_term);
     memset(o, 0, sizeof *o);
 }
 
@@ -219,6 +233,14 @@ static void hold_scale(const hci_predicted_reading *o, double of_current_Nm, dou
         by_value[c] -= of_current_Nm * o->constant_by_value[c];
 }
 
+/* Of one sample as it stands. */
+static double at_once(const hci_regression *e, const hci_effects *effects, size_t sample,
+                      const hci_sample *reading, double *by_value)
+{
+    if (!e->parts) return hci_effects_predict(e->machine, effects, reading, by_value);
+    return hci_effects_predict_again(e->machine, effects, reading, &e->parts[sample], by_value);
+}
+
 /* Without the dynamics of the sensor. */
 static void fill_static(const hci_regression *e, const hci_effects *effects, const hci_segment *s,
                         hci_predicted_reading *o)
@@ -228,11 +250,10 @@ static void fill_static(const hci_regression *e, const hci_effects *effects, con
     for (size_t k = 0; k < s->count; ++k) {
         double *by_value = o->by_value ? o->by_value + k * o->terms : NULL;
         const hci_sample *reading = e->raw ? &sample[k].raw : &sample[k].reading;
-        o->torque_Nm[k] = e->runs[s->run].only_mean
-                              ? mean_over_turn(e, effects, reading, o, by_value)
-                              : hci_effects_predict(e->machine, effects, reading, by_value);
+        o->torque_Nm[k] = e->runs[s->run].only_mean ? mean_over_turn(e, effects, reading, o, by_value)
+                                                    : at_once(e, effects, s->first + k, reading, by_value);
         o->time_s[k] = sample[k].time_s;
-        if (scales && by_value) hold_scale(o, of_current(e, effects, reading, o->torque_Nm[k]), by_value);
+        if (scales && by_value) hold_scale(o, of_current(e, &o->present, reading, o->torque_Nm[k]), by_value);
         if (holds) o->torque_Nm[k] *= o->holding_scale;
         for (size_t c = 0; holds && by_value && c < o->terms; ++c)
             by_value[c] *= o->holding_scale;

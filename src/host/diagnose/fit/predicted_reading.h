@@ -31,9 +31,12 @@ typedef struct {
     double *torque_Nm;
     double *by_value; /* [samples][terms], derivatives by the values of all terms; NULL: not wanted */
     double *time_s;
-    double *sum;  /* [2 terms], for means */
-    double *row;  /* [2 (terms + 1)], for means over bins */
-    double *work; /* [2 samples], for slopes */
+    double *sum;         /* [2 terms], for means */
+    double *row;         /* [2 (terms + 1)], for means over bins */
+    double *work;        /* [2 samples], for slopes */
+    hci_effects present; /* what of the effects makes a torque, and what of the readings */
+    hci_effect *present_effect;
+    hci_effect_term *present_term;
     bool instant; /* wanted as it is at each sample, not as a slope shows it */
     size_t terms;
     double holding_scale;      /* of torques in a holding test: declared over modelled torque per ampere */

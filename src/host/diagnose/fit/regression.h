@@ -2,17 +2,20 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_FIT_REGRESSION_H
 #define HCI_SRC_HOST_DIAGNOSE_FIT_REGRESSION_H
 
+#include "hci/machine/torque.h"
 #include "host/base/watch.h"
 #include "host/diagnose/prepare/binned_samples.h"
 #include "host/machine/saliency.h"
 #include "host/numeric/noise.h"
 
 typedef struct hci_known_equations hci_known_equations;
+typedef struct hci_known_columns hci_known_columns;
 
 /* The recordings, and what is known of them. */
 typedef struct {
     const hci_machine *machine;
     const hci_effects *declared; /* those that the machine has already */
+    double declared_constant;    /* torque per ampere of both, N·m/A */
     const hci_binned_samples *samples;
     const hci_run *runs;
     const bool *use;             /* of each run */
@@ -20,6 +23,8 @@ typedef struct {
     hci_noise *noise;            /* of each segment */
     double *sum_deviation_A;     /* of each run: noise of i_a + i_b + i_c; NAN where that says nothing */
     hci_known_equations *known;  /* of models linearised before; NULL: none are kept */
+    hci_known_columns *columns;  /* derivatives that were predicted before; NULL: none are kept */
+    hci_torque_parts *parts;     /* of each sample, as hci_effects_predict_again keeps them; NULL: none are */
     double *work;                /* multiplications so far, about; NULL: not counted */
     bool free_means;             /* of each segment: nothing is concluded from them */
     hci_watch *watch;            /* of what follows the search; NULL: it is not ended, and not told */

@@ -56,6 +56,7 @@ hci_status hci_run_parts_each(const hci_regression *e,
     hci_status status = samples.segment ? HCI_OK : hci_note_memory(note, NULL, "one run at a time");
     regression.samples = &samples;
     regression.known = NULL; /* those are of whole runs */
+    regression.columns = NULL;
     for (size_t r = 0; r < e->samples->run_count; ++r)
         for (size_t part = 0; e->use[r] && part < parts && !status; ++part) {
             segments_cut(e->samples, r, part, parts, samples.segment);

@@ -30,9 +30,15 @@ hci_status hci_trial_run_make(const hci_regression *e, const hci_playable *playa
     b->noise = hci_noise_white(playable->noise_Nm);
     b->sum_deviation_A = NAN;
     b->use = true;
-    b->regression = (hci_regression){e->machine, e->declared, &b->samples,         &b->run, &b->use,
-                                     false,      &b->noise,   &b->sum_deviation_A, NULL,    NULL,
-                                     false,      NULL,        e->saliency};
+    b->regression = (hci_regression){.machine = e->machine,
+                                     .declared = e->declared,
+                                     .declared_constant = e->declared_constant,
+                                     .samples = &b->samples,
+                                     .runs = &b->run,
+                                     .use = &b->use,
+                                     .noise = &b->noise,
+                                     .sum_deviation_A = &b->sum_deviation_A,
+                                     .saliency = e->saliency};
     return b->sample && b->residual_Nm ? HCI_OK : hci_note_memory(note, NULL, "what to measure next");
 }
 

@@ -48,12 +48,31 @@ typedef struct {
     double most_Hz;
 } changes;
 
+/* What is asked, and the current of each sample in the rotor frame. */
+typedef struct {
+    const hci_run *run;
+    const hci_run_statistics *statistics;
+    double constant_Nm_per_A;
+    int pole_pairs;
+    hci_dq *current; /* to be freed */
+} question;
+
+/* False when memory is out. */
+static bool question_make(const hci_swing_question *from, question *x)
+{
+    *x = (question){from->run, from->statistics, from->constant_Nm_per_A, from->pole_pairs, NULL};
+    x->current = hci_memory_new(x->run->count, sizeof *x->current);
+    for (size_t k = 0; x->current && k < x->run->count; ++k)
+        x->current[k] = hci_run_dq(x->run, x->pole_pairs, k);
+    return x->current != NULL;
+}
+
 /* ---- one turn before ---- */
 
 /* What the current does not make of the torque at a sample. */
-static double left_Nm(const hci_swing_question *x, size_t k)
+static double left_Nm(const question *x, size_t k)
 {
-    return x->run->torque_Nm[k] - x->constant_Nm_per_A * hci_run_dq(x->run, x->pole_pairs, k).q;
+    return x->run->torque_Nm[k] - x->constant_Nm_per_A * x->current[k].q;
 }
 
 /* A place between two samples, one turn before another one. */
@@ -80,12 +99,10 @@ static double between(const place *p, double from, double to)
 }
 
 /* Adds the change of sample k to its mean. Returns the square of the change of the current. */
-static double change_add(const hci_swing_question *x, size_t k, const place *p, double weight, changes *c,
-                         size_t mean)
+static double change_add(const question *x, size_t k, const place *p, double weight, changes *c, size_t mean)
 {
     const hci_run *r = x->run;
-    const hci_dq now = hci_run_dq(r, x->pole_pairs, k), from = hci_run_dq(r, x->pole_pairs, p->at),
-                 to = hci_run_dq(r, x->pole_pairs, p->at + 1);
+    const hci_dq now = x->current[k], from = x->current[p->at], to = x->current[p->at + 1];
     c->change_Nm[mean] += weight * (left_Nm(x, k) - between(p, left_Nm(x, p->at), left_Nm(x, p->at + 1)));
     c->time_s[mean] += weight * r->time_s[k];
     c->before_s[mean] += weight * between(p, r->time_s[p->at], r->time_s[p->at + 1]);
@@ -94,8 +111,7 @@ static double change_add(const hci_swing_question *x, size_t k, const place *p, 
 }
 
 /* Fills the means. False: the current changes from turn to turn. */
-static bool changes_fill(const hci_swing_question *x, double direction, size_t first, size_t group,
-                         changes *c)
+static bool changes_fill(const question *x, double direction, size_t first, size_t group, changes *c)
 {
     double square = 0.0;
     place p = {0, 0.0};
@@ -266,14 +282,14 @@ static double wave_amplitude(const wave_sums *w, double count)
 }
 
 /* Whether the current makes a part of it, or the speed swings too, which an inertia makes a torque of. */
-static bool is_caused(const hci_swing_question *x, const line *a)
+static bool is_caused(const question *x, const line *a)
 {
     const hci_run *r = x->run;
     const double n = (double)r->count, swing_Nm = hypot(a->cosine, a->sine);
     wave_sums d = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, q = d, speed = d;
     for (size_t k = 0; k < r->count; ++k) {
         const double phase_rad = 2.0 * HCI_PI * a->frequency_Hz * r->time_s[k];
-        const hci_dq i = hci_run_dq(r, x->pole_pairs, k);
+        const hci_dq i = x->current[k];
         wave_add(&d, phase_rad, i.d);
         wave_add(&q, phase_rad, i.q);
         wave_add(&speed, phase_rad, r->speed_rad_per_s ? r->speed_rad_per_s[k] : 0.0);
@@ -285,7 +301,7 @@ static bool is_caused(const hci_swing_question *x, const line *a)
 }
 
 /* Whether an order above half the samples in a turn, of those that a balanced machine has, looks like it. */
-static bool is_folded(const hci_swing_question *x, const changes *c, double frequency_Hz)
+static bool is_folded(const question *x, const changes *c, double frequency_Hz)
 {
     const hci_run *r = x->run;
     const double rate_Hz = (double)(r->count - 1) / (r->time_s[r->count - 1] - r->time_s[0]);
@@ -346,7 +362,7 @@ static hci_swing swing_of(const changes *c, const line *a)
 }
 
 /* The line of a frequency as it stands in the torque itself. */
-static line line_of_torque(const hci_swing_question *x, double frequency_Hz)
+static line line_of_torque(const question *x, double frequency_Hz)
 {
     const hci_run *r = x->run;
     wave_sums w = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
@@ -359,14 +375,14 @@ static line line_of_torque(const hci_swing_question *x, double frequency_Hz)
 }
 
 /* Whether the torque itself has about the line that its changes over a turn show. */
-static bool is_in_torque(const hci_swing_question *x, const line *a)
+static bool is_in_torque(const question *x, const line *a)
 {
     const line b = line_of_torque(x, a->frequency_Hz);
     return hypot(a->cosine - b.cosine, a->sine - b.sine) < OFF * hypot(a->cosine, a->sine);
 }
 
 /* Lines that stand out of the noise. Returns how many. */
-static size_t lines_take(const hci_swing_question *x, changes *c, line *lines)
+static size_t lines_take(const question *x, changes *c, line *lines)
 {
     size_t count = 0;
     while (count < HCI_MOST_SWINGS && x->statistics->turns >= OWN_TURNS) {
@@ -409,7 +425,7 @@ static bool is_known(const hci_swing_groups *known, const hci_swing_group *x)
 }
 
 /* Adds those that other runs show, where they are about as large here. Returns how many there are then. */
-static size_t known_take(const hci_swing_question *x, changes *c, const hci_swing_groups *known, line *lines,
+static size_t known_take(const question *x, changes *c, const hci_swing_groups *known, line *lines,
                          size_t count)
 {
     for (size_t g = 0; g < known->count && count < HCI_MOST_SWINGS; ++g) {
@@ -436,7 +452,7 @@ double hci_swings_at_Nm(const hci_run_statistics *f, double time_s)
     return sum_Nm;
 }
 
-static size_t take(const hci_swing_question *x, changes *c, const hci_swing_groups *known, hci_swing *swing)
+static size_t take(const question *x, changes *c, const hci_swing_groups *known, hci_swing *swing)
 {
     line lines[HCI_MOST_SWINGS];
     size_t count = lines_take(x, c, lines);
@@ -446,13 +462,12 @@ static size_t take(const hci_swing_question *x, changes *c, const hci_swing_grou
     return count;
 }
 
-size_t hci_swings_find(const hci_swing_question *x, const hci_swing_groups *known,
-                       hci_swing swing[HCI_MOST_SWINGS])
+/* known: NULL: of no other runs. SIZE_MAX when memory is out. */
+static size_t find(const question *x, const hci_swing_groups *known, hci_swing *swing)
 {
     const hci_run *r = x->run;
     size_t first = 1, group = 1, count = 0;
     changes c;
-    if (!is_asked(x)) return 0;
     const double direction = r->theta_m_rad[r->count - 1] > r->theta_m_rad[0] ? 1.0 : -1.0;
     place p = {0, 0.0};
     while (first < r->count && !place_find(r, first, direction, &p))
@@ -464,5 +479,15 @@ size_t hci_swings_find(const hci_swing_question *x, const hci_swing_groups *know
         if (c.turn_s > 0.0 && c.mean_s > 0.0) count = take(x, &c, known, swing);
     }
     hci_memory_free(c.change_Nm);
+    return count;
+}
+
+size_t hci_swings_find(const hci_swing_question *asked, const hci_swing_groups *known,
+                       hci_swing swing[HCI_MOST_SWINGS])
+{
+    question x;
+    if (!is_asked(asked)) return 0;
+    const size_t count = question_make(asked, &x) ? find(&x, known, swing) : SIZE_MAX;
+    hci_memory_free(x.current);
     return count;
 }

@@ -39,13 +39,13 @@ static void part_add(const hci_dq *i, hci_turn_part *part)
     part->q += w * (i->q - part->q);
 }
 
-static void sample_add(const hci_run *r, int pole_pairs, size_t k, hci_turn *sum)
+/* last: in and out, the current of the sample before; anything at the first one. */
+static void sample_add(const hci_run *r, int pole_pairs, size_t k, hci_dq *last, hci_turn *sum)
 {
-    const hci_dq i = hci_run_dq(r, pole_pairs, k),
-                 last = hci_run_dq(r, pole_pairs, k > sum->first ? k - 1 : k);
+    const hci_dq i = hci_run_dq(r, pole_pairs, k), before = k > sum->first ? *last : i;
     const double turns = r->theta_m_rad[k] / hci_turn_rad(r, pole_pairs);
     part_add(&i, &sum->part[(size_t)((turns - floor(turns)) * HCI_TURN_PARTS) % HCI_TURN_PARTS]);
-    sum->noise_A2 += 0.5 * ((i.d - last.d) * (i.d - last.d) + (i.q - last.q) * (i.q - last.q));
+    sum->noise_A2 += 0.5 * ((i.d - before.d) * (i.d - before.d) + (i.q - before.q) * (i.q - before.q));
     sum->d += i.d;
     sum->q += i.q;
     const double speed = r->speed_rad_per_s ? r->speed_rad_per_s[k] : 0.0;
@@ -54,6 +54,7 @@ static void sample_add(const hci_run *r, int pole_pairs, size_t k, hci_turn *sum
     sum->most_speed = fmax(sum->most_speed, speed);
     sum->temperature += r->temperature_C ? r->temperature_C[k] : 0.0;
     sum->torque += r->torque_Nm ? r->torque_Nm[k] : 0.0;
+    *last = i;
 }
 
 /* The next turn from a sample on: until the angle has gone once round, or turns back. */
@@ -62,12 +63,13 @@ static hci_turn turn_from(const hci_run *run, int pole_pairs, size_t first)
     const double *theta = run->theta_m_rad, turn = hci_turn_rad(run, pole_pairs);
     hci_turn sum = {.first = first, .least_speed = INFINITY, .most_speed = -INFINITY};
     double farthest = 0.0;
+    hci_dq last = {0.0, 0.0, 0.0};
     size_t k = first;
     for (; k < run->count; ++k) {
         const double gone = fabs(theta[k] - theta[first]);
         if (gone >= turn || gone < farthest - NEARLY * turn) break;
         farthest = fmax(farthest, gone);
-        sample_add(run, pole_pairs, k, &sum);
+        sample_add(run, pole_pairs, k, &last, &sum);
     }
     sum.count = k - first;
     sum.whole = k < run->count && farthest >= (1.0 - NEARLY) * turn;

@@ -431,6 +431,7 @@ hci_status hci_attribute(hci_regression *regression, const hci_attribute_options
     regression->use = all;
     hci_memory_free(no_load);
     hci_memory_free(s.residual_Nm);
+    hci_known_residuals_release(&s.residuals);
     hci_fitted_model_release(&s.disbelieved.model);
     if (status) hci_attribution_release(attribution);
     return status;

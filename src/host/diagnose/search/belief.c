@@ -60,7 +60,7 @@ hci_status hci_search_constant_share(const hci_search *s, const hci_candidates *
                                      hci_note *note)
 {
     const hci_regression *e = s->regression;
-    const double declared = hci_torque_constant(e->machine, e->declared);
+    const double declared = e->declared_constant;
     hci_model model;
     *share = 1.0;
     if (!(declared > 0.0)) return HCI_OK;

@@ -2,7 +2,6 @@
 #include "host/diagnose/fit/current_sums.h"
 #include "host/diagnose/fit/model.h"
 #include "host/diagnose/fit/noise_estimate.h"
-#include "host/diagnose/fit/predicted_reading.h"
 #include "host/diagnose/fit/within_slope.h"
 
 #include <math.h>
@@ -76,7 +75,8 @@ hci_status hci_search_residual(hci_search *s, const hci_candidates *candidates, 
     hci_model model;
     hci_status status = hci_model_make(s->regression->declared, candidates, false, &model, note);
     hci_search_tell(s);
-    if (!status) status = hci_regression_residual(s->regression, &model.list, s->residual_Nm, note);
+    if (!status)
+        status = hci_known_residuals_find(&s->residuals, s->regression, &model.list, s->residual_Nm, note);
     hci_model_release(&model);
     return status;
 }

@@ -3,6 +3,7 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_SEARCH_SEARCH_H
 #define HCI_SRC_HOST_DIAGNOSE_SEARCH_SEARCH_H
 
+#include "host/diagnose/fit/known_residuals.h"
 #include "host/diagnose/search/attribution.h"
 #include "host/diagnose/search/fitted_model.h"
 
@@ -21,6 +22,7 @@ typedef struct {
     hci_regression *regression;
     const hci_attribute_options *options;
     double *residual_Nm, *variance;   /* of each sample, of the model looked at last */
+    hci_known_residuals residuals;    /* to be released */
     double resolution_Nm;             /* what the model is not asked to be better than: as in the options, or
                                        * more where it is to describe slopes */
     int richness;                     /* of saturation */
