@@ -88,8 +88,10 @@ static void test_waves_of_both_ways(void)
         /* the speed is a line's through ways that are no whole turns */
         TEST_ASSERT_DOUBLE_WITHIN(1e-3 * TIME_S, size_s * cos(AHEAD), t->sine);
         TEST_ASSERT_DOUBLE_WITHIN(1e-3 * TIME_S, size_s * sin(AHEAD), t->cosine);
-        TEST_ASSERT_DOUBLE_WITHIN(3e-5, 0.0, q->sine);
-        TEST_ASSERT_DOUBLE_WITHIN(3e-5, CURRENT_A, q->cosine);
+        const double of_a_cell =
+            CURRENT_A * OF_CURRENT * REF_PI / (64.0 * 60.0 * POLE_PAIRS); /* half of one */
+        TEST_ASSERT_DOUBLE_WITHIN(of_a_cell, 0.0, q->sine);
+        TEST_ASSERT_DOUBLE_WITHIN(of_a_cell, CURRENT_A, q->cosine);
         TEST_ASSERT_TRUE(t->stands_out && q->stands_out);
         TEST_ASSERT_FALSE(w->order[ORDER].iq_A.stands_out || w->order[OF_CURRENT].time_s.stands_out);
         TEST_ASSERT_FALSE(w->order[0].iq_A.stands_out);
