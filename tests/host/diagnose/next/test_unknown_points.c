@@ -150,6 +150,42 @@ static void test_two_recordings(void)
     TEST_ASSERT_EQUAL_DOUBLE(alone_Nm, chosen[0].spread_Nm);
 }
 
+/* √χ² of each law at a point, of the size that one recording of 2 A at 40 rad/s has left. */
+static void departures(double size_Nm, const hci_operating_point *at, double x[HCI_GROWTH_LAWS])
+{
+    const double samples = 10.0 * (double)hci_trial_run_samples(POLE_PAIRS);
+    double mean = 0.0;
+    for (size_t g = 0; g < HCI_GROWTH_LAWS; ++g) {
+        x[g] = hci_growth_law_at(g, hypot(at->id_A, at->iq_A), at->speed_rad_per_s) /
+               hci_growth_law_at(g, 2.0, 40.0);
+        mean += x[g] / HCI_GROWTH_LAWS;
+    }
+    for (size_t g = 0; g < HCI_GROWTH_LAWS; ++g)
+        x[g] = size_Nm / playable.noise_Nm * sqrt(0.5 * samples / HCI_GROWTH_LAWS) * (x[g] - mean);
+}
+
+/* What a recording with noise of 1 leaves of another point's departures y is y − x (x·y)/(x·x + 1). */
+static void test_what_one_point_leaves_of_another(void)
+{
+    const hci_operating_point point[] = {{0.0, 2.4, 40.0}, {0.0, 2.2, 46.0}};
+    double x[HCI_GROWTH_LAWS], y[HCI_GROWTH_LAWS], xx = 0.0, xy = 0.0, left = 0.0;
+    record(0, 2.0, 40.0, (const double[]){0.3, -0.4, 0.0});
+    playable.noise_Nm = 1.0; /* so that it is not large beside 1 */
+    departures(0.5, &point[0], x);
+    departures(0.5, &point[1], y);
+    for (size_t g = 0; g < HCI_GROWTH_LAWS; ++g) {
+        xx += x[g] * x[g];
+        xy += x[g] * y[g];
+    }
+    for (size_t g = 0; g < HCI_GROWTH_LAWS; ++g)
+        left += pow(y[g] - x[g] * xy / (xx + 1.0), 2.0);
+    TEST_ASSERT_EQUAL(2, find(ORDER, point, 2, 2));
+    TEST_ASSERT_EQUAL(0, chosen[0].point);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9 * xx, xx, chosen[0].chi_square);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9 * xx, left, chosen[1].chi_square);
+    TEST_ASSERT_TRUE(xx < 40.0 && xy * xy > 0.01 * xx * left); /* it is neither all nor nothing */
+}
+
 /* Once a point has been recorded, the same one tells nothing more. */
 static void test_what_is_chosen_is_known(void)
 {
@@ -220,6 +256,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_one_recording);
     RUN_TEST(test_two_recordings);
+    RUN_TEST(test_what_one_point_leaves_of_another);
     RUN_TEST(test_what_is_chosen_is_known);
     RUN_TEST(test_the_furthest_from_all_recordings);
     RUN_TEST(test_speeds_by_their_logarithm);
