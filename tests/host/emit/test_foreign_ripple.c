@@ -7,7 +7,7 @@
 #include "support/recording.h"
 #include "unity.h"
 
-enum { POINTS = 2880 };
+enum { OF_MEAN = 180, OF_PEAKS = 2880 }; /* angles: orders of the torque are 60 at most */
 
 static hci_machine_data machine;
 static hci_machine_plant plant;
@@ -23,17 +23,17 @@ void tearDown(void)
 }
 
 /* Mean, least and most torque over an electrical period with i_q alone. */
-static double sweep(double iq_A, double *low, double *high)
+static double sweep(double iq_A, int points, double *low, double *high)
 {
     double mean = 0.0;
     *low = INFINITY;
     *high = -INFINITY;
-    for (int k = 0; k < POINTS; ++k) {
-        const double theta = 2.0 * REF_PI * k / POINTS;
+    for (int k = 0; k < points; ++k) {
+        const double theta = 2.0 * REF_PI * k / points;
         double i[3];
         rec_phases(0.0, iq_A, theta, i);
         const double torque_Nm = hci_machine_plant_torque_at(&plant, theta, i, NULL);
-        mean += torque_Nm / POINTS;
+        mean += torque_Nm / points;
         *low = fmin(*low, torque_Nm);
         *high = fmax(*high, torque_Nm);
     }
@@ -43,14 +43,14 @@ static double sweep(double iq_A, double *low, double *high)
 static double ripple_by_bisection(double torque_Nm)
 {
     double low, high, from = 0.0, to = 12.0;
-    for (int k = 0; k < 40; ++k) {
+    for (int k = 0; k < 24; ++k) {
         const double middle = 0.5 * (from + to);
-        if (sweep(middle, &low, &high) < torque_Nm)
+        if (sweep(middle, OF_MEAN, &low, &high) < torque_Nm)
             from = middle;
         else
             to = middle;
     }
-    (void)sweep(to, &low, &high);
+    (void)sweep(to, OF_PEAKS, &low, &high);
     return high - low;
 }
 

@@ -153,7 +153,7 @@ static void test_two_recordings(void)
 /* √χ² of each law at a point, of the size that one recording of 2 A at 40 rad/s has left. */
 static void departures(double size_Nm, const hci_operating_point *at, double x[HCI_GROWTH_LAWS])
 {
-    const double samples = 10.0 * (double)hci_trial_run_samples(POLE_PAIRS);
+    const double played = 10.0 * (double)hci_trial_run_samples(POLE_PAIRS);
     double mean = 0.0;
     for (size_t g = 0; g < HCI_GROWTH_LAWS; ++g) {
         x[g] = hci_growth_law_at(g, hypot(at->id_A, at->iq_A), at->speed_rad_per_s) /
@@ -161,7 +161,7 @@ static void departures(double size_Nm, const hci_operating_point *at, double x[H
         mean += x[g] / HCI_GROWTH_LAWS;
     }
     for (size_t g = 0; g < HCI_GROWTH_LAWS; ++g)
-        x[g] = size_Nm / playable.noise_Nm * sqrt(0.5 * samples / HCI_GROWTH_LAWS) * (x[g] - mean);
+        x[g] = size_Nm / playable.noise_Nm * sqrt(0.5 * played / HCI_GROWTH_LAWS) * (x[g] - mean);
 }
 
 /* What a recording with noise of 1 leaves of another point's departures y is y − x (x·y)/(x·x + 1). */

@@ -66,12 +66,13 @@ static dot seen[MOST_DOTS];
 static size_t dots;
 static const char *text;
 
+/* The number behind the next place of a mark, which *at goes on to. */
 static double number_behind(const char **at, const char *mark)
 {
     *at = strstr(*at, mark);
     TEST_ASSERT_NOT_NULL(*at);
     *at += strlen(mark);
-    return strtod(*at, (char **)at);
+    return strtod(*at, NULL);
 }
 
 static void draw(void)
@@ -85,9 +86,9 @@ static void draw(void)
         TEST_ASSERT_TRUE(dots < MOST_DOTS);
         dot *d = &seen[dots];
         (void)number_behind(&at, "d=\"M");
-        d->low = strtod(at, (char **)&at);
+        d->low = number_behind(&at, " ");
         (void)number_behind(&at, "L");
-        d->high = strtod(at, (char **)&at);
+        d->high = number_behind(&at, " ");
         d->x = number_behind(&at, "cx=\"");
         d->y = number_behind(&at, "cy=\"");
     }
