@@ -7,7 +7,7 @@
 #include "support/recording.h"
 #include "unity.h"
 
-enum { OF_MEAN = 180, OF_PEAKS = 1440 }; /* angles: orders of the torque are 60 at most */
+enum { OF_MEAN = 180, OF_PEAKS = 4320 }; /* angles: orders of the torque are 60 at most */
 
 static hci_machine_data machine;
 static hci_machine_plant plant;
@@ -60,8 +60,8 @@ static void check(const char *folder, double torque_Nm)
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_machine_read(folder, &machine, &note), note.text);
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_machine_plant_make(folder, &machine, &plant, &note), note.text);
     const double wanted_Nm = ripple_by_bisection(torque_Nm);
-    /* peaks between samples */
-    TEST_ASSERT_DOUBLE_WITHIN(2e-3 * wanted_Nm, wanted_Nm, hci_emit_sine_ripple_Nm(&plant, torque_Nm));
+    /* peaks between samples; one step from the torque constant misses it by 8e-4 */
+    TEST_ASSERT_DOUBLE_WITHIN(3e-4 * wanted_Nm, wanted_Nm, hci_emit_sine_ripple_Nm(&plant, torque_Nm));
     tearDown();
 }
 
