@@ -1,4 +1,5 @@
-/* The residual by order of waves whose amplitudes are known, in whole turns, weighted by the samples in a mean. */
+/* The residual by order of waves whose amplitudes are known, in whole turns, weighted by the samples in a
+ * mean. */
 #include "host/diagnose/residual_spectrum.h"
 
 #include <math.h>
@@ -22,13 +23,13 @@ static hci_regression regression;
 static hci_residual_line *line;
 static size_t lines;
 
-/* Three turns of each run, before 0.5 + 0.3 sin(8θ + 1) and after 0.2 cos 5θ in all; `weight` samples in each. */
+/* Three turns of each run, before 0.5 + 0.3 sin(8θ + 1) and after 0.2 cos 5θ in all; `weight` samples in
+ * each. */
 void setUp(void)
 {
     machine = (hci_machine){.pole_pairs = POLE_PAIRS};
     samples = (hci_binned_samples){sample, RUNS * N, segment, RUNS, statistics, RUNS};
-    regression =
-        (hci_regression){.machine = &machine, .samples = &samples, .runs = run, .use = use};
+    regression = (hci_regression){.machine = &machine, .samples = &samples, .runs = run, .use = use};
     memset(run, 0, sizeof run);
     for (size_t r = 0; r < RUNS; ++r) {
         run[r].turn_known = true;
