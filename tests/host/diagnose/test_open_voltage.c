@@ -68,6 +68,34 @@ static void test_scale(void)
     TEST_ASSERT_TRUE(isnan(hci_open_voltage_scale(&machine.model, &runs)));
 }
 
+/* A fifth harmonic of share f leaves f²/2 of each of n phase samples: by white noise the scale has the error
+ * f √(0.5/n), without a third for the mean of the phases; and it is well known where f²/3n is below 2e-3². */
+static void test_error_of_the_scale(void)
+{
+    double error;
+    record_open(1.03, 0.02, 0.0);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.03, hci_open_voltage_scale_fitted(&machine.model, &runs, &error));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.02 * sqrt(0.5 / N), error);
+    record_open(1.05, 0.02, 0.0); /* two as long are 1.04, and 0.01 off it each */
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.04, hci_open_voltage_scale_fitted(&machine.model, &runs, &error));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, sqrt((0.02 * 0.02 + 0.01 * 0.01) * 0.25 / N), error);
+    role[1] = HCI_ROLE_HOLDOUT;
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.03, hci_open_voltage_scale_fitted(&machine.model, &runs, &error));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.04, hci_open_voltage_scale(&machine.model, &runs));
+    role[0] = HCI_ROLE_HOLDOUT;
+    TEST_ASSERT_TRUE(isnan(hci_open_voltage_scale_fitted(&machine.model, &runs, &error)) && isnan(error));
+}
+
+static void test_a_scale_that_is_not_well_known(void)
+{
+    for (int more = 0; more < 2; ++more) {
+        runs.count = 0;
+        rec_release(&run[0]);
+        record_open(1.0, (more ? 1.01 : 0.99) * 2e-3 * sqrt(3.0 * N), 0.0);
+        TEST_ASSERT_EQUAL(more, isnan(hci_open_voltage_scale(&machine.model, &runs)));
+    }
+}
+
 static hci_status find(void)
 {
     hci_note note = {{0}};
@@ -132,6 +160,8 @@ int main(void)
     RUN_TEST(test_difference);
     RUN_TEST(test_none);
     RUN_TEST(test_scale);
+    RUN_TEST(test_error_of_the_scale);
+    RUN_TEST(test_a_scale_that_is_not_well_known);
     RUN_TEST(test_nothing_in_the_torque);
     RUN_TEST(test_voltages_exclude_a_weaker_back_emf);
     RUN_TEST(test_a_gain_that_voltages_do_not_show);

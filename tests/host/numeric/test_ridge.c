@@ -237,6 +237,28 @@ static void test_draws(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.04 * S * S / 9.0, S * S / 9.0, square);
 }
 
+/* One of which nothing is said is 0 in the mean and in each draw. */
+static void test_an_unknown_that_nothing_is_said_of(void)
+{
+    hci_draws draws = {3};
+    double drawn[2];
+    size(1, 4, 2);
+    precision[0] = 5.0;
+    precision[1] = 0.0;
+    for (size_t k = 0; k < rows; ++k) {
+        x[2 * k] = y[k] = 1.0;
+        x[2 * k + 1] = 0.0;
+    }
+    solve();
+    TEST_ASSERT_DOUBLE_WITHIN(1e-10, 4.0 / 9.0, ridge.mean[0]);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, ridge.mean[1]);
+    for (int k = 0; k < 5; ++k) {
+        hci_ridge_draw(&ridge, S, &draws, drawn);
+        TEST_ASSERT_TRUE(drawn[0] != 0.0);
+        TEST_ASSERT_EQUAL_DOUBLE(0.0, drawn[1]);
+    }
+}
+
 /* How large errors are, when draws are made: known, or as the groups tell it. */
 typedef struct {
     bool known;
@@ -486,6 +508,7 @@ int main(void)
     RUN_TEST(test_errors_left_out);
     RUN_TEST(test_groups_left_out_tell_the_size_of_errors);
     RUN_TEST(test_draws);
+    RUN_TEST(test_an_unknown_that_nothing_is_said_of);
     RUN_TEST(test_one_value_in_twenty_is_above_the_bound);
     RUN_TEST(test_no_more_than_that_where_groups_tell_the_size);
     RUN_TEST(test_copies_are_joined);

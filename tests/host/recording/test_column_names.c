@@ -60,6 +60,26 @@ static void test_columns_without_a_name(void)
     text_has("columns not used: `spare`", run.remark.text);
 }
 
+/* Each file that has a column counts once for it, and for none of the others. */
+static void test_files_that_have_a_column(void)
+{
+    size_t found[] = {0, 0, 0};
+    add("theta_e_deg=AI1");
+    add("iq=nowhere");
+    add("torque_mNm=AI3");
+    const hci_run_options options = {
+        .pole_pairs = 2, .inertia_kgm2 = NAN, .columns = &names, .columns_found = found};
+    for (size_t k = 1; k <= 3; ++k) {
+        files_write(path, k < 3 ? "AI1,AI2,AI3\n0,0,1000\n90,1,2000\n180,2,3000\n"
+                                : "AI1,torque_Nm\n0,1\n90,2\n180,3\n");
+        hci_run_release(&run);
+        TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_read(path, &options, &run, &note), note.text);
+        TEST_ASSERT_EQUAL(k, found[0]);
+        TEST_ASSERT_EQUAL(0, found[1]);
+        TEST_ASSERT_EQUAL(k < 3 ? k : 2, found[2]);
+    }
+}
+
 /* A turn of 4096 counts, on the command line or in columns.csv; what looks like counts is not read in rad. */
 static void test_counts_of_an_encoder(void)
 {
@@ -326,6 +346,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_columns_without_a_name);
+    RUN_TEST(test_files_that_have_a_column);
     RUN_TEST(test_counts_of_an_encoder);
     RUN_TEST(test_the_opposite_sign);
     RUN_TEST(test_one_list_for_two_languages);

@@ -27,6 +27,28 @@ static void test_units_and_relative_paths(void)
     TEST_ASSERT_TRUE(isnan(s.step_s));
 }
 
+/* Beside the file, also where that is named without a folder; unless the path begins at the root. */
+static void test_paths_beside_the_file(void)
+{
+    static const char *const GIVEN[] = {"folder/x.csv", "/tmp/x.csv"};
+    char folder[1024];
+    hci_note note = {{0}};
+    hci_scenario s;
+    TEST_ASSERT_NOT_NULL(getcwd(folder, sizeof folder));
+    TEST_ASSERT_EQUAL_INT(0, chdir(files_root));
+    for (int k = 0; k < 2; ++k) {
+        char text[100];
+        snprintf(text, sizeof text, "name,value,unit\ncurrents,%s,\n", GIVEN[k]);
+        files_write("scenario.csv", text);
+        TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_scenario_read("scenario.csv", &s, &note), note.text);
+        TEST_ASSERT_EQUAL_STRING(GIVEN[k], s.currents);
+        TEST_ASSERT_EQUAL_STRING(
+            k ? "/tmp/x.csv" : files_path("folder/x.csv"),
+            scenario_of(k ? "currents,/tmp/x.csv,\n" : "currents,folder/x.csv,\n").currents);
+    }
+    TEST_ASSERT_EQUAL_INT(0, chdir(folder));
+}
+
 static void test_wrong_rows_are_refused(void)
 {
     refused(&machine_c, "duratoin,1,s\n",
@@ -140,6 +162,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_units_and_relative_paths);
+    RUN_TEST(test_paths_beside_the_file);
     RUN_TEST(test_wrong_rows_are_refused);
     RUN_TEST(test_contradictions_are_refused);
     RUN_TEST(test_missing_values_are_named_where_needed);

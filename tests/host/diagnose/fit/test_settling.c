@@ -123,9 +123,28 @@ static void test_how_long_it_takes(void)
     TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_settling_s(&list));
 }
 
+/* The samples of the last so many seconds before a turn of 100 samples a second, and four that inputs between
+ * samples are told from; three turns at most. */
+static void test_samples_of_that_time(void)
+{
+    static const struct {
+        double settling_s;
+        size_t samples;
+    } CASE[] = {{0.0, 4},     {0.005, 4},   {0.015, 5},   {0.255, 29},    {0.995, 103},
+                {1.255, 129}, {2.255, 229}, {2.945, 298}, {2.965, 300},   {2.995, 300},
+                {3.0, 300},   {17.0, 300},  {1e300, 300}, {INFINITY, 300}};
+    hci_binned_sample sample[100];
+    const hci_segment of_a_second = {.count = 100, .turns = 9, .period_s = 1.0};
+    for (size_t k = 0; k < 100; ++k)
+        sample[k] = (hci_binned_sample){.time_s = 7.0 + 0.01 * (double)k};
+    for (size_t k = 0; k < sizeof CASE / sizeof *CASE; ++k)
+        TEST_ASSERT_EQUAL(CASE[k].samples, hci_settling_samples(sample, &of_a_second, CASE[k].settling_s));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_samples_of_that_time);
     RUN_TEST(test_it_has_settled);
     RUN_TEST(test_a_declared_lag_acts_everywhere);
     RUN_TEST(test_how_long_it_takes);
