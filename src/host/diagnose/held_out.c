@@ -236,16 +236,6 @@ static hci_status square_refitted(hci_dataset *b, const hci_runs *runs, const hc
     return status;
 }
 
-/* Terms of a whole co-energy stand for each other, and were chosen together by runs left out. */
-static bool is_of_whole(const hci_candidates *model, const hci_effect_type *type)
-{
-    for (size_t k = 0; k < model->count; ++k)
-        if (model->candidate[k].in && model->candidate[k].type == type &&
-            model->candidate[k].coenergy_unit > 0.0)
-            return true;
-    return false;
-}
-
 static double gain_of_all(const hci_attribution *a)
 {
     return a->before.score - a->model.fit.score;
@@ -263,7 +253,7 @@ hci_status hci_held_out_misleading(hci_dataset *b, const hci_runs *runs, const h
     for (size_t r = 0; r < a->types && !status; ++r) {
         const hci_verdict *v = &a->verdict[r];
         if (!v->in || v->ambiguous || v->gain > SMALL * gain_of_all(a)) continue;
-        if (is_of_whole(&a->model.candidates, v->type)) continue;
+        if (hci_candidates_are_of_whole(&a->model.candidates, v->type)) continue;
         status = square_refitted(b, runs, v->type, &a->model, &without_Nm2, note);
         if (status || !(without_Nm2 < least_Nm2)) continue;
         least_Nm2 = without_Nm2;

@@ -52,6 +52,14 @@ size_t hci_candidates_terms_in(const hci_candidates *s)
     return sum;
 }
 
+bool hci_candidates_are_of_whole(const hci_candidates *s, const hci_effect_type *type)
+{
+    for (size_t k = 0; k < s->count; ++k)
+        if (s->candidate[k].in && s->candidate[k].type == type && s->candidate[k].coenergy_unit > 0.0)
+            return true;
+    return false;
+}
+
 void hci_candidates_remove_type(hci_candidates *s, const hci_effect_type *type)
 {
     for (size_t k = 0; k < s->count; ++k)

@@ -66,6 +66,10 @@ bool hci_candidates_have_series(const hci_candidates *candidates);
 size_t hci_candidates_types_in(const hci_candidates *candidates);
 size_t hci_candidates_terms_in(const hci_candidates *candidates);
 
+/* Whether a type is in with terms of a whole co-energy (coenergy_terms.h). These stand for each other, and
+ * were chosen together, by runs left out. */
+bool hci_candidates_are_of_whole(const hci_candidates *s, const hci_effect_type *type);
+
 /* Takes a type out of the model; its candidates stay in the list. */
 void hci_candidates_remove_type(hci_candidates *candidates, const hci_effect_type *type);
 

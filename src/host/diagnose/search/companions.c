@@ -64,6 +64,13 @@ double hci_companion_error(const hci_regression *e, const hci_candidates *model,
     return swings(model, type) ? SWING_ERROR : 0.0;
 }
 
+/* Whether both are of a whole co-energy, in which neither is a part of the error of the other. */
+static bool are_of_whole(const hci_attribution *a, const hci_verdict *v, const hci_verdict *other)
+{
+    const hci_candidates *model = &a->model.candidates;
+    return hci_candidates_are_of_whole(model, v->type) && hci_candidates_are_of_whole(model, other->type);
+}
+
 /* The fall of the score that another effect of the iron must reach to be more than a part of the error of the
  * others; 0: none of them is off. */
 static double least_of_iron(const hci_regression *e, const hci_attribution *a, const hci_verdict *v)
@@ -72,7 +79,8 @@ static double least_of_iron(const hci_regression *e, const hci_attribution *a, c
     for (size_t r = 0; r < a->types; ++r) {
         const hci_verdict *other = &a->verdict[r];
         const double error = hci_companion_error(e, &a->model.candidates, other->type);
-        const bool both = v->type->beyond_quadratic && other->type->beyond_quadratic;
+        const bool both =
+            (v->type->beyond_quadratic && other->type->beyond_quadratic) || are_of_whole(a, v, other);
         if (other->in && other != v && error > 0.0 && !both) most = fmax(most, error * other->gain);
     }
     return most > 0.0 ? fmax(HCI_DECISIVE, most) : 0.0;
@@ -82,8 +90,10 @@ static double least_of_iron(const hci_regression *e, const hci_attribution *a, c
 static double least_of_any(const hci_attribution *a, const hci_verdict *v)
 {
     double most = 0.0;
-    for (size_t r = 0; r < a->types; ++r)
-        if (a->verdict[r].in && &a->verdict[r] != v) most = fmax(most, a->verdict[r].gain);
+    for (size_t r = 0; r < a->types; ++r) {
+        const hci_verdict *other = &a->verdict[r];
+        if (other->in && other != v && !are_of_whole(a, v, other)) most = fmax(most, other->gain);
+    }
     return fmin(PLAIN, ANY_ERROR * most);
 }
 
