@@ -217,8 +217,8 @@ static void say_next_on_machine(cli_tuning *t)
         hci_tuning_say(
             &t->tuning, HCI_TUNING_NEXT,
             "Nothing, as far as this tells: the search for effects ended before all had been compared. "
-            "It gets further with fewer logs, or with MACHINE --runs LIST and what is known in "
-            "MACHINE/effects.csv.");
+            "It gets further with %sMACHINE --runs LIST and what is known in MACHINE/effects.csv.",
+            t->runs.count > 1 ? "fewer logs, or with " : "");
     else if (!has_sensor(t))
         hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
                        "On the same bench: the same slow turn forward and back with the table in the drive "

@@ -99,6 +99,13 @@ map smooth.csv 1 0
 run 0 tune smooth.csv --pole-pairs 7 --kv 120 -o smooth
 says '^tuned: .*; the sign of i_q is not told, and with the other one it doubles' 'Whether i_q drives the shaft the way in which the angle is counted'
 
+# ---- an offset of the angle, with which the logs were read, is in the table
+
+run 0 tune smooth.csv --pole-pairs 7 --kv 120 --angle-offset -31 -o offset
+check "the header has no offset" grep -q 'theta = pole pairs \* mechanical angle + (-31) degrees electrical' offset/table/tuned.h
+check "commands.sh has no offset for emit" grep -q 'hci-solve emit .* --angle-offset -31' offset/commands.sh
+check "an offset nobody gave" [ "$(grep -c 'degrees electrical' smooth/table/tuned.h)" -eq 0 ]
+
 # ---- a shaft that sticks
 
 slow_turn jerks.csv 0.9
