@@ -19,8 +19,8 @@
 #include "host/recording/effort.h"
 #include "host/recording/holes.h"
 #include "host/recording/rotor_frame.h"
-#include "host/recording/row_direction.h"
 #include "host/recording/run_columns.h"
+#include "host/recording/slow_turn.h"
 #include "host/recording/speed_variation.h"
 #include "host/recording/untold_torque.h"
 

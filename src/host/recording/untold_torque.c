@@ -8,7 +8,6 @@
 #include "host/numeric/derivative.h"
 #include "host/numeric/statistics.h"
 #include "host/recording/effort.h"
-#include "host/recording/row_direction.h"
 #include "host/recording/slow_turn.h"
 #include "host/recording/speed_variation.h"
 #include "host/recording/turn_balance.h"
