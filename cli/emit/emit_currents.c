@@ -18,6 +18,7 @@ static hci_status read_facts(const cli_arguments *a, cli_emit_currents *in, hci_
     hci_status status = HCI_OK;
     in->request.blob = a->given[EMIT_BLOB];
     facts->angle_of_logs = a->given[EMIT_ANGLE_OF_LOGS];
+    facts->angle_offset_deg = cli_number_or(a, EMIT_ANGLE_OFFSET, 0.0);
     if (hci_solution_is_folder(a->word[0]) &&
         hci_solution_read_mean_torque(a->word[0], &facts->mean_torque_Nm, &none) != HCI_OK)
         facts->mean_torque_Nm = 0.0;

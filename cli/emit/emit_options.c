@@ -107,6 +107,11 @@ const cli_option cli_emit_options[] = {
         {"angle-of-logs", 0, CLI_FLAG, NULL,
          .help = "the header, or with --drive and --for a remark, says that the angle is that of "
                  "the logs, and where the electrical zero is, is not known"},
+    [EMIT_ANGLE_OFFSET] = {"angle-offset", 0, CLI_NUMBER, "DEG",
+                           .help =
+                               "the header says that theta is the electrical angle of the logs plus this, "
+                               "in degrees, as they were read",
+                           .low = -1e6, .high = 1e6},
     [EMIT_ORDER_BASE] = CLI_TABLE_ORDER_BASE_OPTION,
     [EMIT_OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where ID.h and ID.c go (default: here)"},
     CLI_COMMON_OPTIONS};
@@ -141,6 +146,11 @@ static const struct {
      {EMIT_FOR, END},
      "the form of a map --for TARGET is that of the drive; leave out --format, --shape, --frame, "
      "--max-error, --max-bytes, --max-instructions and --speed"},
+    {{EMIT_ANGLE_OFFSET, END},
+     true,
+     {EMIT_FOR, EMIT_DRIVE, END},
+     "--angle-offset is a line in the header of a table; a map takes --encoder-offset, and the angle that "
+     "goes to hci/loop.h the offset itself"},
     {{EMIT_SPEED, END}, false, {EMIT_DRIVE, END}, "--speed goes with --drive"},
     {{EMIT_POINTS, EMIT_REFERENCE, EMIT_FORMAT, EMIT_SHAPE, EMIT_MAX_BYTES, EMIT_MAX_INSTRUCTIONS, END},
      true,

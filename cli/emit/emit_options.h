@@ -28,6 +28,7 @@ typedef enum {
     EMIT_WAVE,
     EMIT_BLOB,
     EMIT_ANGLE_OF_LOGS,
+    EMIT_ANGLE_OFFSET,
     EMIT_ORDER_BASE,
     EMIT_OUT,
     EMIT_COMMON /* those of all commands begin here */

@@ -80,8 +80,9 @@ static void say_per_torque(cli_tuning *t, const char *currents, const char *name
         &t->tuning, HCI_TUNING_LOAD,
         "Where the torque changes, as in a joint that moves freely, load it in two parts, one of them times "
         "the torque, up to %.3g N·m, for which it was solved (tune --torque for more): hci-solve emit %s "
-        "--name %s --frame dq --per-torque --machine %s%s -o FOLDER.",
-        t->mean_Nm, currents, name, machine, cli_tune_knows_zero(t) ? "" : " --angle-of-logs");
+        "--name %s --frame dq --per-torque --machine %s%s%s%s -o FOLDER.",
+        t->mean_Nm, currents, name, machine, cli_tune_knows_zero(t) ? "" : " --angle-of-logs",
+        cli_tune_offset(t) ? " --angle-offset " : "", cli_tune_offset(t) ? cli_tune_offset(t) : "");
 }
 
 /* What the table is, and how its firmware reads it. */
@@ -137,6 +138,7 @@ hci_status cli_tune_emit(cli_tuning *t, hci_note *note)
     cli_tune_line c = {
         {"emit", currents, "--name", name, "--frame", "dq", "--machine", machine, "-o", folder}, 10};
     if (!cli_tune_knows_zero(t)) cli_tune_add_option(&c, "angle-of-logs", NULL);
+    if (cli_tune_offset(t)) cli_tune_add_option(&c, "angle-offset", cli_tune_offset(t));
     const hci_status status = cli_tune_run(t, t->commands.emit, &c, note);
     if (status) return status;
     t->is_emitted = true;

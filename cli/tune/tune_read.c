@@ -205,18 +205,15 @@ static bool is_of_angle(const char *relation)
     return false;
 }
 
-/* Whether something in the files counts the pole pairs. */
-static bool counts_pole_pairs(const cli_tuning *t, const hci_check *c)
+/* Whether something in the files counts the pole pairs. The orders of a ripple do not: motors with other
+ * slots and half or twice the poles have them too. */
+static bool counts_pole_pairs(const hci_check *c)
 {
-    static const char *const NAMES[] = {"current_order", "voltage_order", "angle_ratio", "frequency_speed",
-                                        "ripple_orders"};
-    bool is_told = t->declared.model.pole_pairs % 2 == 0; /* else they are no number of poles */
-    for (size_t k = 0; k < c->untolds; ++k)
-        is_told = is_told && strcmp(c->untold[k], "poles_for_pole_pairs") != 0;
+    static const char *const NAMES[] = {"current_order", "voltage_order", "angle_ratio", "frequency_speed"};
     for (size_t k = 0; k < c->evidences; ++k)
         for (size_t n = 0; n < sizeof NAMES / sizeof *NAMES; ++n)
-            is_told = is_told || strcmp(c->evidence[k].name, NAMES[n]) == 0;
-    return is_told;
+            if (strcmp(c->evidence[k].name, NAMES[n]) == 0) return true;
+    return false;
 }
 
 /* Where it is certain that something is read wrongly, and not what. */
@@ -245,12 +242,28 @@ static void judge_torque(cli_tuning *t, const hci_check_evidence *e)
              e->declared / e->expected);
 }
 
+/* Of a shaft that is taken to turn by itself the current cannot work against the motion. */
+static void judge_current(cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count && !t->has_slip; ++k) {
+        if (t->runs.run[k].current_way >= 0) continue;
+        t->has_slip = true;
+        snprintf(
+            t->slip, sizeof t->slip,
+            "i_q works against the motion in %.120s: i_q has the opposite sign, or angle and speed have, "
+            "or another machine turns the shaft; a table of it could double the ripple, so nothing was "
+            "solved",
+            cli_tune_name_of(t, k));
+    }
+}
+
 static void judge_check(cli_tuning *t, const hci_check *c)
 {
-    t->counts_pole_pairs = counts_pole_pairs(t, c);
+    t->counts_pole_pairs = counts_pole_pairs(c);
     for (size_t k = 0; k < c->evidences && c->verdict != HCI_CHECK_CONSISTENT; ++k)
         judge_torque(t, &c->evidence[k]);
     judge_ambiguous(t, c);
+    judge_current(t);
     for (size_t k = 0; k < c->evidences && c->verdict == HCI_CHECK_NOT_UNDERSTOOD; ++k)
         if (c->evidence[k].state == HCI_CHECK_UNMENDED)
             *(is_of_angle(c->evidence[k].name) ? &t->has_misfit : &t->has_doubt) = true;

@@ -7,6 +7,7 @@
 #include "cli/terminal/say.h"
 #include "cli/terminal/text.h"
 #include "cli/tune/tune_options.h"
+#include "cli/tune/tune_waveforms.h"
 
 /* Times the noise that a ripple may have without being looked at. */
 #define NEAR_NOISE 1.5
@@ -82,20 +83,58 @@ static void say_unknown_zero(cli_tuning *t)
         "(docs/tutorials/zero.md).");
 }
 
+/* Whether the sign of a current is all that a torque is told by, and nothing tells it. */
+static bool lacks_sign(const cli_tuning *t)
+{
+    bool lacks = false;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        if (r->torque_source == HCI_TORQUE_MEASURED || r->current_way != 0) return false;
+        lacks = lacks || r->torque_source == HCI_TORQUE_HOLDING ||
+                (r->torque_source == HCI_TORQUE_INERTIA && !cli_tune_has_no_current(t, r));
+    }
+    return lacks;
+}
+
+static void say_unknown_sign(cli_tuning *t)
+{
+    hci_tuning_say(
+        &t->tuning, HCI_TUNING_UNKNOWN,
+        "Whether i_q drives the shaft the way in which the angle is counted: neither friction nor an "
+        "acceleration in these logs tells it. With the other sign the table doubles what it is to "
+        "take away. A turn forward and one back, in one log with time and speed, tells it.");
+    hci_tuning_say(
+        &t->tuning, HCI_TUNING_NEXT,
+        "Before the table is played: turn the shaft forward and back by the drive alone and log it.");
+}
+
+static bool is_uncounted(const cli_tuning *t)
+{
+    return t->is_solved && t->is_own && !t->counts_pole_pairs;
+}
+
+static void say_uncounted(cli_tuning *t)
+{
+    const int p = t->declared.model.pole_pairs;
+    char half[32] = "";
+    if (p % 2 == 0) snprintf(half, sizeof half, "%d, or ", p / 2);
+    hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                   "Whether there are %d pole pairs, and not %s%d: nothing in these logs counts them, and a "
+                   "table of the wrong number is of no use. Count the magnets, two for a pole pair; voltages "
+                   "or currents of the phases beside the angle, or both angles, would tell.",
+                   p, half, 2 * p);
+}
+
 static void say_unknown(cli_tuning *t)
 {
     say_limits(t);
+    if (t->is_solved && lacks_sign(t)) say_unknown_sign(t);
     if (t->is_solved && t->is_own && !t->has_emf && !t->has_load)
         hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
                        "The torque per ampere and the back-EMF are those of the data sheet; voltages of the "
                        "open machine, driven by another, would tell them.");
     if (t->is_solved && !cli_tune_knows_zero(t)) say_unknown_zero(t);
-    if (t->is_solved && t->is_own && !t->counts_pole_pairs)
-        hci_tuning_say(
-            &t->tuning, HCI_TUNING_UNKNOWN,
-            "Whether there are %d pole pairs: nothing in these logs counts them. Voltages or currents "
-            "of the phases beside the angle would.",
-            t->declared.model.pole_pairs);
+    if (is_uncounted(t)) say_uncounted(t);
     for (size_t k = 0; k < t->runs.count; ++k) {
         const hci_run *r = &t->runs.run[k];
         const char *name = t->arguments->given[TUNE_RUNS] ? r->name : t->arguments->word[k];
@@ -178,8 +217,8 @@ static void say_next_on_machine(cli_tuning *t)
         hci_tuning_say(
             &t->tuning, HCI_TUNING_NEXT,
             "Nothing, as far as this tells: the search for effects ended before all had been compared. "
-            "It gets further with fewer logs, or with MACHINE --runs LIST and what is known in "
-            "MACHINE/effects.csv.");
+            "It gets further with %sMACHINE --runs LIST and what is known in MACHINE/effects.csv.",
+            t->runs.count > 1 ? "fewer logs, or with " : "");
     else if (!has_sensor(t))
         hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
                        "On the same bench: the same slow turn forward and back with the table in the drive "
@@ -432,6 +471,12 @@ static void add_to_heading(cli_tuning *t)
     if (hangs_on_lag(t))
         snprintf(heading + strlen(heading), size - strlen(heading),
                  "; unless the torque sensor reads late, which one speed does not tell");
+    if (is_uncounted(t))
+        snprintf(heading + strlen(heading), size - strlen(heading),
+                 "; that there are %d pole pairs is not in these logs", t->declared.model.pole_pairs);
+    if (t->is_solved && lacks_sign(t))
+        snprintf(heading + strlen(heading), size - strlen(heading),
+                 "; the sign of i_q is not told, and with the other one it doubles");
     if (is_off_sheet(t))
         snprintf(heading + strlen(heading), size - strlen(heading),
                  "; the measured back-EMF is %.3g times that of the data sheet", t->emf_to_sheet);

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Logs that a table cannot be made of: no angle, a torque that was typed, currents in mA, a shaft that sticks. Nothing is searched in them: it takes a second.
+# Logs that a table cannot be made of: no angle, a torque that was typed, currents in mA or of the other sign, a shaft that sticks. Nothing is searched in them: it takes a second.
 #   cli_tune_logs.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"
 cd "$work" || exit 1
@@ -60,6 +60,51 @@ says '^(the conventions are not understood|a convention is broken): '
 check "the unit is not said" grep -q '360 is degrees in a column that is read in turns' degrees/summary.json
 check "jerks are accused" [ "$(grep -c 'Turn the shaft evenly\|left out' degrees/summary.json)" -eq 0 ]
 refused degrees
+
+# ---- i_q, or angle and speed, with the opposite sign: a table of it would double the ripple
+
+# NAME CURRENT MOTION SPEED...: a shaft of 1e-4 kg·m² under speed control, a second at each speed, with cogging torque of order 12 and friction; signs
+spin() {
+    awk -v current="$2" -v motion="$3" -v speeds="$4" 'BEGIN { srand(2); print "time_s,theta_m_rad,speed_rad_per_s,iq_A"; n = split(speeds, set, " "); w = set[1]
+        for (k = 0; k < 10000 * n; ++k) {
+            want = set[1 + int(k / 10000)]; sum += (want - w) * 1e-4; iq = 0.1 * (want - w) + sum
+            if (k % 10 == 0) printf "%.4f,%.6f,%.4f,%.5f\n", 1e-4 * k, motion * x, motion * w, current * iq + 0.005 * (rand() + rand() - 1)
+            w += (0.069 * iq + 0.012 * sin(84 * x + 0.4) - (w > 0 ? 1 : -1) * (0.004 + 0.00002 * (w > 0 ? w : -w))) / 1e-4 * 1e-4; x += 1e-4 * w } }' >"$1"
+}
+is_refused() { # NAME: by one of both signs, and each of the other motion too
+    for signs in '-1 1' '1 -1'; do
+        spin "$1" ${signs% *} ${signs#* } "$2"
+        run 1 tune "$1" --pole-pairs 7 --kv 120 --inertia 1e-4 -o "$1$signs"
+        says '^a convention is broken: ' "$3"
+        refused "$1$signs"
+    done
+}
+is_refused spin.csv '6 15 30 -6 -15 -30' 'the currents are counted out of the machine, or angle and speed are both backward'
+is_refused one.csv '10 10 10' 'angle and speed'
+spin right.csv 1 1 '6 15 30 -6 -15 -30'
+run 0 tune right.csv --pole-pairs 7 --kv 120 --inertia 1e-4 -o right
+says '^tuned: '
+check "a sign is accused" [ "$(grep -c 'works against\|Whether i_q drives' right/summary.json)" -eq 0 ]
+# a holding map: friction there and back tells it; without friction nothing does, and that is said
+map() { # NAME SIGN FRICTION_A
+    awk -v sign="$2" -v friction="$3" 'BEGIN { print "theta_m_rad,iq_A,torque_Nm"
+        for (k = 0; k < 1440; ++k) { there = k < 720; x = 6.283185307179586 / 720 * (there ? k : 1439 - k)
+            printf "%.6f,%.6f,0\n", x, sign * ((there ? 1 : -1) * friction - 0.2 * sin(84 * x + 0.4)) } }' >"$1"
+}
+map against.csv -1 0.06
+run 1 tune against.csv --pole-pairs 7 --kv 120 -o against
+says '^a convention is broken: i_q works against the motion in against.csv: i_q has the opposite sign, or angle and speed have'
+refused against
+map smooth.csv 1 0
+run 0 tune smooth.csv --pole-pairs 7 --kv 120 -o smooth
+says '^tuned: .*; the sign of i_q is not told, and with the other one it doubles' 'Whether i_q drives the shaft the way in which the angle is counted'
+
+# ---- an offset of the angle, with which the logs were read, is in the table
+
+run 0 tune smooth.csv --pole-pairs 7 --kv 120 --angle-offset -31 -o offset
+check "the header has no offset" grep -q 'theta = pole pairs \* mechanical angle + (-31) degrees electrical' offset/table/tuned.h
+check "commands.sh has no offset for emit" grep -q 'hci-solve emit .* --angle-offset -31' offset/commands.sh
+check "an offset nobody gave" [ "$(grep -c 'degrees electrical' smooth/table/tuned.h)" -eq 0 ]
 
 # ---- a shaft that sticks
 

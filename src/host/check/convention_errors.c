@@ -122,7 +122,8 @@ const check_error HCI_CHECK_ERRORS[] = {
      "a speed of its own beside time and angle (angle and speed reversed together look like b and c "
      "swapped)"},
     {"phases_swapped", CHECK_OF_PHASES, USUALLY, FIELD(swapped), 0.0, 1.0, CHECK_AT_PHASES,
-     "phases b and c of the recordings are swapped", "b and c the other way round", UNLOADED},
+     "phases b and c of the recordings are swapped, or another two with another zero of the angle",
+     "b and c the other way round", UNLOADED},
     {"currents_swapped", CHECK_OF_PHASES, SELDOM, FIELD(currents_swapped), 0.0, 1.0, CHECK_AT_CLAMPS,
      "phases b and c of the currents are swapped, and those of the voltages are not",
      "b and c of the currents the other way round", LOADED},

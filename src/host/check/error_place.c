@@ -242,6 +242,16 @@ static const char *current_of(const check_data *data, const check_place *place)
     return is_dq ? "iq" : "ia";
 }
 
+/* Without torque and voltages a current that works against the motion is as well one of a shaft whose angle
+ * and speed are both counted backward. */
+static void say_other_motion(const check_data *data, hci_check_finding *finding)
+{
+    const size_t used = strlen(finding->words);
+    for (size_t k = 0; k < data->runs; ++k)
+        if (data->run[k].has_torque || data->run[k].has_voltage) return;
+    snprintf(finding->words + used, sizeof finding->words - used, ", or angle and speed are both backward");
+}
+
 /* How to say it of a column whose name says nothing or something else. */
 static void say_column(const check_error *error, const check_data *data, const check_place *place,
                        hci_check_finding *finding)
@@ -270,6 +280,7 @@ void hci_check_error_locate(const check_error *error, const check_data *data, co
     memcpy(finding->column, place->column, sizeof finding->column);
     memcpy(finding->found, place->text, sizeof finding->found);
     fill(finding->should_be, error->should_be, right_number(error, data, as));
+    if (error->aspect == CHECK_OF_CURRENT_SIGN) say_other_motion(data, finding);
     if (is_offset(error))
         say_offset(data, as, finding);
     else if (place->unit_line > 0)

@@ -234,6 +234,21 @@ static check_value friction_way(const check_data *data, const check_interpretati
     return hci_check_found(fmax(-1.0, fmin(1.0, friction_A / (STANDS_OUT * rms_A))));
 }
 
+/* The sign with which i_q accelerates and overcomes friction, of every file without a torque: their mean. */
+static check_value motion_way(const check_data *data, const check_interpretation *as, const check_model *m)
+{
+    double way = 0.0, count = 0.0;
+    for (size_t k = 0; k < data->runs; ++k) {
+        const check_run *r = &data->run[k];
+        const double speed = hci_check_speed_of(r, as, m);
+        if (r->current_way == 0 || !is_of_friction(data, r) || !(fabs(r->speed * speed) > 0.0)) continue;
+        const double turned = speed * r->speed < 0.0 ? -1.0 : 1.0;
+        way += turned * (as->current * as->dq < 0.0 ? -1.0 : 1.0) * r->current_way;
+        count += 1.0;
+    }
+    return count > 0.0 ? hci_check_found(way / count) : HCI_CHECK_NONE;
+}
+
 /* ---- the list */
 
 static const check_relation LIST[] = {
@@ -247,5 +262,9 @@ static const check_relation LIST[] = {
      CHECK_TORQUE_TOLERANCE, 9.0, torque_size, "a recording of currents, angle and torque", ""},
     {"friction_way", "i_q of a slow turn forward less that back, 1 where friction brakes", CHECK_SHARE, 1.0,
      0.4, 9.0, friction_way, "recordings of currents, slowly turned forward and back, without torque", ""},
+    {"motion_way", "sign of i_q that accelerates the shaft and overcomes its friction", CHECK_SHARE, 1.0, 0.4,
+     9.0, motion_way,
+     "recordings of i_q, time and speed, forward and back or at several speeds, without torque",
+     "friction_way"},
 };
 const check_relation_list HCI_CHECK_TORQUE_RELATIONS = {LIST, sizeof LIST / sizeof *LIST};

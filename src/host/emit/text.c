@@ -63,6 +63,20 @@ void hci_emission_frame(const hci_emission *e, hci_output *out)
     }
 }
 
+/* Of recordings that were read with an offset. */
+static void write_offset(double degrees, hci_output *out)
+{
+    char text[32];
+    if (degrees == 0.0) return;
+    hci_number_text(degrees, text);
+    hci_output_text(
+        out,
+        " *         Of the angle of the logs theta = pole pairs * mechanical angle + (%s) degrees "
+        "electrical\n"
+        " *         (--angle-offset %s).\n",
+        text, text);
+}
+
 void hci_emission_angle(const hci_emission *e, hci_output *out)
 {
     const size_t turns = e->tabulation.period_turns;
@@ -78,6 +92,7 @@ void hci_emission_angle(const hci_emission *e, hci_output *out)
               " *         taken to rise through zero there. theta grows with"
             : "at\n"
               " *         the rising zero crossing of the fundamental of phase a's back-EMF and grows with");
+    write_offset(e->request->facts.angle_offset_deg, out);
     if (turns > 1)
         hci_output_text(
             out,

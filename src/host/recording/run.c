@@ -16,10 +16,11 @@
 #include "host/recording/bare_angle.h"
 #include "host/recording/clock.h"
 #include "host/recording/computed_torque.h"
+#include "host/recording/effort.h"
 #include "host/recording/holes.h"
 #include "host/recording/rotor_frame.h"
-#include "host/recording/row_direction.h"
 #include "host/recording/run_columns.h"
+#include "host/recording/slow_turn.h"
 #include "host/recording/speed_variation.h"
 #include "host/recording/untold_torque.h"
 
@@ -491,8 +492,8 @@ static hci_status read_torque(reader *r)
                        "name its column by --column iq_A=COLUMN, or its torque by --column torque_Nm=COLUMN");
     if (run->torque_Nm == NULL) return hci_untold_torque_set(run, r->options, r->no_currents, r->note);
     run->torque_source = is_zero(run->torque_Nm, run->count) ? HCI_TORQUE_HOLDING : HCI_TORQUE_MEASURED;
-    if (run->torque_source == HCI_TORQUE_HOLDING && !hci_row_direction_set(run)) return memory_error(r);
-    return HCI_OK;
+    if (run->torque_source != HCI_TORQUE_HOLDING) return HCI_OK;
+    return hci_row_direction_set(run) ? hci_run_effort_set(run, r->note) : memory_error(r);
 }
 
 /* ---- the run ---- */

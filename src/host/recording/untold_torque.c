@@ -7,7 +7,7 @@
 #include "host/base/memory.h"
 #include "host/numeric/derivative.h"
 #include "host/numeric/statistics.h"
-#include "host/recording/row_direction.h"
+#include "host/recording/effort.h"
 #include "host/recording/slow_turn.h"
 #include "host/recording/speed_variation.h"
 #include "host/recording/turn_balance.h"
@@ -233,7 +233,9 @@ hci_status hci_untold_torque_set(hci_run *run, const hci_run_options *options, b
 {
     task t = {.run = run, .options = options, .note = note};
     t.accelerates = can_accelerate(&t, no_currents);
-    hci_status status = may_be_slow(&t, no_currents) ? find_ways(&t) : HCI_OK;
+    /* before what accelerates is taken out of the current */
+    hci_status status = no_currents ? HCI_OK : hci_run_effort_set(run, note);
+    if (!status && may_be_slow(&t, no_currents)) status = find_ways(&t);
     if (!status) run->torque_Nm = hci_memory_new(run->count, sizeof(double));
     if (!status) status = run->torque_Nm != NULL ? free_or_held(&t) : memory_error(&t);
     hci_turn_ways_release(&t.ways);

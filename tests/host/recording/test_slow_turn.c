@@ -97,6 +97,33 @@ static void test_a_fast_shaft_under_load_is_none(void)
     TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, run.torque_source);
 }
 
+/* A shaft that runs down from 30 rad/s in a second and stands for seven more; its sensors read a zero and
+ * noise, in A. */
+static void read_coast(double zero_A, double noise_A)
+{
+    uint64_t seed = 7;
+    FILE *file = fopen(path, "w");
+    TEST_ASSERT_NOT_NULL(file);
+    fprintf(file, "time_s,theta_m_rad,speed_rad_per_s,iq_A\n");
+    for (size_t k = 0; k < N; ++k) {
+        const double t = STEP_S * (double)k, left = t < 1.0 ? 1.0 - t : 0.0;
+        fprintf(file, "%.4f,%.9f,%.9f,%.9f\n", t, 15.0 * (1.0 - left * left), 30.0 * left,
+                zero_A + noise_A * ref_normal(&seed));
+    }
+    fclose(file);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_read(path, &KNOWN, &run, &note), note.text);
+}
+
+/* On average over the recording it is slow; but it has not been turned slowly. */
+static void test_a_coast_with_a_long_rest_is_free(void)
+{
+    read_coast(0.0, 0.01);
+    TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, run.torque_source);
+    hci_run_release(&run);
+    read_coast(0.02, 0.002);
+    TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, run.torque_source);
+}
+
 /* J (12 ω)² × 0.1 rad = 3.7e-3 N·m beside 1e-2: a part of the current accelerates. */
 static void test_a_shaft_that_is_accelerated_is_none(void)
 {
@@ -234,6 +261,7 @@ int main(void)
     RUN_TEST(test_a_map_goes_the_way_of_its_rows);
     RUN_TEST(test_a_slow_turn_is_found);
     RUN_TEST(test_a_fast_shaft_under_load_is_none);
+    RUN_TEST(test_a_coast_with_a_long_rest_is_free);
     RUN_TEST(test_a_shaft_that_is_accelerated_is_none);
     RUN_TEST(test_it_takes_inertia_and_torque_constant);
     RUN_TEST(test_it_can_be_said);

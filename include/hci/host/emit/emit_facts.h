@@ -21,6 +21,8 @@ typedef struct {
     double magnets_C;               /* temperature of the declared back-EMF; with emf_per_kelvin */
     bool angle_of_logs;             /* theta is that of the recordings, whose zero is not known to be that of
                                      * the back-EMF */
+    double angle_offset_deg;        /* that theta is ahead of the electrical angle of the recordings; 0: it is
+                                     * that angle, or nothing is known of them */
 } hci_emit_facts;
 
 /* What the folder of a machine says, as hci_machine_read has read it; mean_torque_Nm stays. HCI_ERROR_INPUT,

@@ -124,6 +124,9 @@ typedef struct {
     double current_order, voltage_order;   /* order and sequence against the recorded angle; NAN: none */
     bool current_is_steady;                /* with one sign all the time */
     double frequency;   /* of the voltages over the recorded time, rad per unit of time; NAN: unknown */
+    int current_way;    /* of the whole file without a torque: 1 where i_q accelerates and brakes against
+                         * friction as    that of a motor does, -1 where it works against the motion, 0 where that
+                         * is not told */
     double phase_ratio; /* length of the vector of phase currents over that of i_d, i_q; NAN: not both */
     double current_sum; /* rms of ia + ib + ic over the rms of the currents; NAN: not three columns */
     double current_balance, voltage_balance; /* largest over smallest alternating rms of the phases */

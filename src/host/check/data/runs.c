@@ -7,6 +7,7 @@
 #include "host/check/data/run_parts.h"
 #include "host/numeric/statistics.h"
 #include "host/recording/computed_torque.h"
+#include "host/recording/effort.h"
 
 #define DEGREE (HCI_PI / 180.0)
 
@@ -58,6 +59,16 @@ static bool has_computed_torque(const check_samples *s)
     return s->time && s->q && s->torque && hci_torque_is_of_current(s->torque, s->q, s->count, &constant);
 }
 
+/* What the current does to the motion. A friction of one direction alone may be another machine that drives.
+ */
+static int current_way(const check_samples *s)
+{
+    if (s->torque || !s->time || !s->speed || !s->q) return 0;
+    const hci_effort effort = hci_effort_find(&(hci_effort_samples){s->time, s->speed, s->q, s->count});
+    const bool is_told = effort.has_both_ways || hci_effort_accelerates(&effort);
+    return is_told ? hci_effort_way(&effort) : 0;
+}
+
 static hci_status run_take(const hci_csv *csv, check_data *data, check_run *file, hci_note *remark,
                            hci_note *note)
 {
@@ -68,6 +79,7 @@ static hci_status run_take(const hci_csv *csv, check_data *data, check_run *file
                      "the torque is i_q times a number: the drive has computed it, and it is not compared");
         s.torque = NULL;
     }
+    if (!status) file->current_way = current_way(&s);
     if (!status && !parts_take(&s, file, data)) status = hci_note_memory(note, file->path, "its samples");
     hci_check_samples_release(&s);
     return status;

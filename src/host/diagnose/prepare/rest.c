@@ -6,9 +6,10 @@
 #define DEVIATIONS                                                                                           \
     8.0                 /* of the noise of the angle: a shaft that moves less may be at rest; steps of an    \
                            encoder have 1/√12 of theirs */
-#define LEAST_SHARE 0.1 /* of the samples that must be left */
+#define LEAST_SHARE 0.1 /* of the samples that must be left, … */
 
-enum { REACH = 2 };
+/* … or so many: a shaft that runs down may stand for most of its recording. */
+enum { REACH = 2, ENOUGH = 100 };
 
 /* Standard deviation of the angle's noise, from fourth differences: (1 −4 6 −4 1)² = 70. */
 static double noise_of(const double *x, size_t n)
@@ -48,6 +49,6 @@ void hci_rest_find(const hci_run *run, bool *at_rest)
     memset(at_rest, 0, n * sizeof *at_rest);
     if (run->torque_source != HCI_TORQUE_INERTIA || !run->theta_m_rad || half == 0 || n <= 2 * REACH) return;
     const double least_rad = DEVIATIONS * noise_of(run->theta_m_rad, n);
-    if ((double)marks_set(run, least_rad, half, reach, at_rest) < LEAST_SHARE * (double)n)
-        memset(at_rest, 0, n * sizeof *at_rest);
+    const size_t moving = marks_set(run, least_rad, half, reach, at_rest);
+    if (moving < ENOUGH && (double)moving < LEAST_SHARE * (double)n) memset(at_rest, 0, n * sizeof *at_rest);
 }

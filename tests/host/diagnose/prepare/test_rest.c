@@ -5,7 +5,7 @@
 #include "support/recording.h"
 #include "unity.h"
 
-enum { N = 900, STOP = 300, START = 600, WINDOW = 9 };
+enum { N = 1800, STOP = 300, START = 1500, WINDOW = 9 };
 
 static hci_run run;
 static bool at_rest[N];
@@ -56,10 +56,22 @@ static void test_none(void)
     is_between(false, 0, N);
 }
 
+/* A shaft that runs down and stands for eleven twelfths of its recording. */
+static void test_stands_for_most(void)
+{
+    uint64_t seed = 5;
+    for (size_t k = 0; k < N; ++k)
+        run.theta_m_rad[k] = 3e-3 * (double)(k < N / 12 ? k : N / 12) + 2e-4 * ref_normal(&seed);
+    hci_rest_find(&run, at_rest);
+    is_between(false, 0, N / 12 - WINDOW);
+    is_between(true, N / 12, N);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_stands_in_between);
     RUN_TEST(test_none);
+    RUN_TEST(test_stands_for_most);
     return UNITY_END();
 }

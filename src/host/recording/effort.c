@@ -1,0 +1,230 @@
+#include "host/recording/effort.h"
+
+#include <math.h>
+
+#include "host/base/memory.h"
+#include "host/numeric/statistics.h"
+#include "host/recording/rotor_frame.h"
+
+/* A recording is cut into so many windows; each has so many samples at least. As few and long ones as follow
+ * the motion: what a control answers to cogging torque late may be against the acceleration that it makes,
+ * and is a mean of 0 in long windows. */
+enum { FEW_WINDOWS = 32, MOST_WINDOWS = 512, LEAST_WINDOWS = 16, LEAST_SAMPLES = 4 };
+
+/* Share of the mean square of the speed about its mean that windows have which follow the motion. */
+#define FOLLOWED 0.5
+
+/* Of the rms of the speed, that it varies by where a motion is more than what cogging torque leaves in it. */
+#define MOVES 0.3
+
+/* Standard errors beyond which a sign is told; those of a fit to samples that follow each other are rough. */
+#define SURE 6.0
+
+/* Of the rms of the current, a friction that stands out. */
+#define STANDS_OUT 0.1
+
+/* Of windows in one direction that are the other: noise of a speed near 0. */
+#define OTHER_WAY 0.05
+
+typedef struct {
+    double time, speed, iq, sign; /* means over a window */
+} window;
+
+/* One row of the fit, about its mean where a constant is fitted too. */
+typedef struct {
+    double acceleration, sign, iq;
+} row;
+
+static size_t cut(const hci_effort_samples *s, size_t wanted, window out[MOST_WINDOWS])
+{
+    const size_t most = s->count / LEAST_SAMPLES, count = most < wanted ? most : wanted;
+    for (size_t j = 0; j < count; ++j) {
+        const size_t from = j * s->count / count, to = (j + 1) * s->count / count;
+        const double share = 1.0 / (double)(to - from);
+        out[j] = (window){0};
+        for (size_t k = from; k < to; ++k) {
+            out[j].time += share * s->time[k];
+            out[j].speed += share * s->speed[k];
+            out[j].iq += share * s->iq[k];
+            out[j].sign += share * ((s->speed[k] > 0.0) - (s->speed[k] < 0.0));
+        }
+    }
+    return count;
+}
+
+static double varies_by(const window *w, size_t count)
+{
+    double sum = 0.0, square = 0.0;
+    for (size_t j = 0; j < count; ++j) {
+        sum += w[j].speed / (double)count;
+        square += w[j].speed * w[j].speed / (double)count;
+    }
+    return fmax(0.0, square - sum * sum);
+}
+
+/* *follows: out, whether the windows tell how the speed changes; else they are few, and tell the rest. */
+static size_t cut_to_motion(const hci_effort_samples *s, window out[MOST_WINDOWS], bool *follows)
+{
+    const double mean = hci_mean(s->speed, s->count), square = hci_mean_square_about(s->speed, s->count, 0.0),
+                 varies = hci_mean_square_about(s->speed, s->count, mean);
+    *follows = true;
+    for (size_t wanted = FEW_WINDOWS; varies > MOVES * MOVES * square && wanted <= MOST_WINDOWS;
+         wanted *= 2) {
+        const size_t count = cut(s, wanted, out);
+        if (count > 0 && varies_by(out, count) > FOLLOWED * varies) return count;
+    }
+    *follows = false;
+    return cut(s, FEW_WINDOWS, out);
+}
+
+/* Of three windows in a row: a slope over them, and means with the weights that it has. */
+static size_t rows_of(const window *w, size_t count, row *out)
+{
+    size_t rows = 0;
+    for (size_t j = 1; j + 1 < count; ++j) {
+        const double span = w[j + 1].time - w[j - 1].time;
+        if (!(span > 0.0)) continue;
+        out[rows++] = (row){.acceleration = (w[j + 1].speed - w[j - 1].speed) / span,
+                            .sign = 0.25 * w[j - 1].sign + 0.5 * w[j].sign + 0.25 * w[j + 1].sign,
+                            .iq = 0.25 * w[j - 1].iq + 0.5 * w[j].iq + 0.25 * w[j + 1].iq};
+    }
+    return rows;
+}
+
+static bool turns_both_ways(const row *r, size_t rows)
+{
+    size_t back = 0;
+    for (size_t j = 0; j < rows; ++j)
+        back += r[j].sign < 0.0;
+    return (double)back > OTHER_WAY * (double)rows && (double)(rows - back) > OTHER_WAY * (double)rows;
+}
+
+static row mean_of(const row *r, size_t rows)
+{
+    row mean = {0};
+    for (size_t j = 0; j < rows; ++j) {
+        mean.acceleration += r[j].acceleration / (double)rows;
+        mean.sign += r[j].sign / (double)rows;
+        mean.iq += r[j].iq / (double)rows;
+    }
+    return mean;
+}
+
+/* The normal equations of two unknowns: of the acceleration and of the sign. */
+typedef struct {
+    double aa, as, ss, ay, sy;
+} equations;
+
+static equations equations_of(const row *r, size_t rows)
+{
+    equations e = {0};
+    for (size_t j = 0; j < rows; ++j) {
+        e.aa += r[j].acceleration * r[j].acceleration;
+        e.as += r[j].acceleration * r[j].sign;
+        e.ss += r[j].sign * r[j].sign;
+        e.ay += r[j].acceleration * r[j].iq;
+        e.sy += r[j].sign * r[j].iq;
+    }
+    return e;
+}
+
+/* Variance of a row, raised by what it has in common with the one before it. */
+static double variance_of(const row *r, size_t rows, double a, double c)
+{
+    double square = 0.0, beside = 0.0, before = 0.0;
+    for (size_t j = 0; j < rows; ++j) {
+        const double rest = r[j].iq - a * r[j].acceleration - c * r[j].sign;
+        square += rest * rest;
+        beside += rest * before;
+        before = rest;
+    }
+    const double alike = square > 0.0 ? fmin(0.95, fmax(0.0, beside / square)) : 0.0;
+    return square / (double)(rows - 3) * (1.0 + alike) / (1.0 - alike);
+}
+
+/* Of a fit without noise a sign is as sure as can be. */
+static double in_errors(double value, double variance)
+{
+    return fmax(-1e6, fmin(1e6, value / sqrt(fmax(variance, 1e-12 * value * value))));
+}
+
+static hci_effort fit(row *r, size_t rows)
+{
+    hci_effort effort = {.has_both_ways = turns_both_ways(r, rows)};
+    const row mean = mean_of(r, rows);
+    double square = 0.0;
+    for (size_t j = 0; j < rows; ++j) {
+        square += r[j].iq * r[j].iq / (double)rows;
+        if (effort.has_both_ways)
+            r[j].acceleration -= mean.acceleration, r[j].sign -= mean.sign, r[j].iq -= mean.iq;
+    }
+    const equations e = equations_of(r, rows);
+    const double det = e.aa * e.ss - e.as * e.as;
+    if (!(square > 0.0) || !(e.ss > 0.0)) return effort;
+    const bool has_slope = det > 1e-9 * e.aa * e.ss;
+    const double a = has_slope ? (e.ss * e.ay - e.as * e.sy) / det : 0.0;
+    const double c = (e.sy - e.as * a) / e.ss, variance = variance_of(r, rows, a, c);
+    if (has_slope && fabs(a) > 0.0) effort.accelerating = in_errors(a, variance * e.ss / det);
+    if (fabs(c) > 0.0) effort.braking = in_errors(c, variance * (has_slope ? e.aa / det : 1.0 / e.ss));
+    effort.share = fmax(-1.0, fmin(1.0, c / sqrt(square)));
+    return effort;
+}
+
+hci_effort hci_effort_find(const hci_effort_samples *samples)
+{
+    window w[MOST_WINDOWS];
+    row r[MOST_WINDOWS];
+    bool follows = false;
+    if (samples->count < LEAST_SAMPLES * LEAST_WINDOWS) return (hci_effort){0};
+    const size_t count = cut_to_motion(samples, w, &follows), rows = rows_of(w, count, r);
+    hci_effort effort = rows < LEAST_WINDOWS - 2 ? (hci_effort){0} : fit(r, rows);
+    if (!follows) effort.accelerating = 0.0;
+    return effort;
+}
+
+bool hci_effort_accelerates(const hci_effort *effort)
+{
+    return fabs(effort->accelerating) > SURE;
+}
+
+int hci_effort_way(const hci_effort *effort)
+{
+    if (hci_effort_accelerates(effort)) return effort->accelerating > 0.0 ? 1 : -1;
+    if (fabs(effort->braking) > SURE && fabs(effort->share) > STANDS_OUT)
+        return effort->braking > 0.0 ? 1 : -1;
+    return 0;
+}
+
+/* i_q of phase currents hangs on the zero of the angle. */
+static bool has_own_iq(const hci_run *run)
+{
+    return run->i_A != NULL && !run->has_sum && run->computed_phase == 0 && run->theta_m_rad != NULL &&
+           run->speed_rad_per_s != NULL;
+}
+
+/* work: twice the samples. */
+static int way_of(const hci_run *run, double *work)
+{
+    double *iq_A = work, *number = work + run->count;
+    for (size_t k = 0; k < run->count; ++k) {
+        iq_A[k] = hci_run_dq(run, run->pole_pairs, k).q;
+        number[k] = (double)k;
+    }
+    const hci_effort effort = hci_effort_find(
+        &(hci_effort_samples){run->time_s ? run->time_s : number, run->speed_rad_per_s, iq_A, run->count});
+    return hci_effort_way(&effort);
+}
+
+hci_status hci_run_effort_set(hci_run *run, hci_note *note)
+{
+    if (!has_own_iq(run)) return HCI_OK;
+    double *work = hci_memory_new(run->count, 2 * sizeof *work);
+    if (work == NULL) return hci_note_memory(note, run->name, "%zu samples", run->count);
+    run->current_way = way_of(run, work);
+    hci_memory_free(work);
+    if (run->current_way < 0)
+        hci_note_add(&run->remark,
+                     "i_q works against the motion, as that of no motor does which turns by itself: i_q, or "
+                     "angle and speed together, have the opposite sign, or another machine turns the shaft");
+    return HCI_OK;
+}
