@@ -30,15 +30,31 @@ static double step_of(const curve *c, size_t k)
     return 0.5 * h * (c->x[k * c->stride] + c->x[(k + 1) * c->stride]) + corrected;
 }
 
-void hci_slope_average(const double *time_s, size_t n, size_t window, double *x, size_t stride, double *work)
+/* The slopes of the integral that stands in `work`. */
+static void slopes_take(const double *time_s, size_t n, size_t window, double *x, size_t stride, double *work)
 {
-    double *integral = work, *rate = work + n;
-    if (n < LEAST || window < LEAST) return;
-    const curve c = {time_s, x, n, stride};
-    integral[0] = 0.0;
-    for (size_t k = 1; k < n; ++k)
-        integral[k] = integral[k - 1] + step_of(&c, k - 1);
-    hci_derivative_over(time_s, integral, n, window, rate);
+    double *rate = work + n;
+    hci_derivative_over(time_s, work, n, window, rate);
     for (size_t k = 0; k < n; ++k)
         x[k * stride] = rate[k];
+}
+
+void hci_slope_average(const double *time_s, size_t n, size_t window, double *x, size_t stride, double *work)
+{
+    if (n < LEAST || window < LEAST) return;
+    const curve c = {time_s, x, n, stride};
+    work[0] = 0.0;
+    for (size_t k = 1; k < n; ++k)
+        work[k] = work[k - 1] + step_of(&c, k - 1);
+    slopes_take(time_s, n, window, x, stride, work);
+}
+
+void hci_slope_average_of_steps(const double *time_s, size_t n, size_t window, double *x, size_t stride,
+                                double *work)
+{
+    if (n < LEAST || window < LEAST) return;
+    work[0] = 0.0;
+    for (size_t k = 1; k < n; ++k)
+        work[k] = work[k - 1] + (time_s[k] - time_s[k - 1]) * x[(k - 1) * stride];
+    slopes_take(time_s, n, window, x, stride, work);
 }

@@ -12,4 +12,9 @@
  * work: 2 n. Less than three samples are left as they are. O(n). */
 void hci_slope_average(const double *time_s, size_t n, size_t window, double *x, size_t stride, double *work);
 
+/* The same where x[k] is the mean of the rate from sample k to the next one, the last x of any value: of a
+ * rate that swings between samples, which no curve through its values at them tells. */
+void hci_slope_average_of_steps(const double *time_s, size_t n, size_t window, double *x, size_t stride,
+                                double *work);
+
 #endif

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/diagnose/fit/between_samples.h"
 #include "host/diagnose/fit/shorter_list.h"
 #include "host/diagnose/prepare/turns.h"
 #include "host/machine/torque_constant.h"
@@ -233,12 +234,31 @@ static void hold_scale(const hci_predicted_reading *o, double of_current_Nm, dou
         by_value[c] -= of_current_Nm * o->constant_by_value[c];
 }
 
-/* Of one sample as it stands. */
-static double at_once(const hci_regression *e, const hci_effects *effects, size_t sample,
-                      const hci_sample *reading, double *by_value)
+/* Where a torque is asked for. parts: what is known of it; NULL: nothing. */
+typedef struct {
+    const hci_run *run;
+    const hci_sample *reading;
+    hci_torque_parts *parts;
+} place;
+
+static double at_once(const hci_regression *e, const hci_effects *effects, const place *at, double *by_value)
 {
-    if (!e->parts) return hci_effects_predict(e->machine, effects, reading, by_value);
-    return hci_effects_predict_again(e->machine, effects, reading, &e->parts[sample], by_value);
+    if (!at->parts) return hci_effects_predict(e->machine, effects, at->reading, by_value);
+    return hci_effects_predict_again(e->machine, effects, at->reading, at->parts, by_value);
+}
+
+/* The torque that is read at one sample, without the dynamics of the sensor. */
+static double torque_at(const hci_regression *e, const hci_effects *effects, const place *at,
+                        hci_predicted_reading *o, double *by_value)
+{
+    const double torque_Nm = at->run->only_mean ? mean_over_turn(e, effects, at->reading, o, by_value)
+                                                : at_once(e, effects, at, by_value);
+    const double scale = reads_current(at->run) ? o->holding_scale : 1.0;
+    if (at->run->hardly_accelerates && by_value)
+        hold_scale(o, of_current(e, &o->present, at->reading, torque_Nm), by_value);
+    for (size_t c = 0; scale != 1.0 && by_value && c < o->terms; ++c)
+        by_value[c] *= scale;
+    return scale * torque_Nm;
 }
 
 /* Without the dynamics of the sensor. */
@@ -246,17 +266,12 @@ static void fill_static(const hci_regression *e, const hci_effects *effects, con
                         hci_predicted_reading *o)
 {
     const hci_binned_sample *sample = e->samples->sample + s->first;
-    const bool holds = reads_current(&e->runs[s->run]), scales = e->runs[s->run].hardly_accelerates;
     for (size_t k = 0; k < s->count; ++k) {
         double *by_value = o->by_value ? o->by_value + k * o->terms : NULL;
-        const hci_sample *reading = e->raw ? &sample[k].raw : &sample[k].reading;
-        o->torque_Nm[k] = e->runs[s->run].only_mean ? mean_over_turn(e, effects, reading, o, by_value)
-                                                    : at_once(e, effects, s->first + k, reading, by_value);
+        const place at = {&e->runs[s->run], e->raw ? &sample[k].raw : &sample[k].reading,
+                          e->parts ? &e->parts[s->first + k] : NULL};
+        o->torque_Nm[k] = torque_at(e, effects, &at, o, by_value);
         o->time_s[k] = sample[k].time_s;
-        if (scales && by_value) hold_scale(o, of_current(e, &o->present, reading, o->torque_Nm[k]), by_value);
-        if (holds) o->torque_Nm[k] *= o->holding_scale;
-        for (size_t c = 0; holds && by_value && c < o->terms; ++c)
-            by_value[c] *= o->holding_scale;
     }
 }
 
@@ -394,16 +409,63 @@ static size_t window_in(const hci_run *run, const hci_segment *s, size_t window)
     return (size_t)((double)(window - 1) * step_s * (double)s->count / s->period_s + 0.5) + 1;
 }
 
-/* The mean over the windows of the slopes that make an acceleration. */
-static void average(const hci_regression *e, const hci_segment *s, size_t count, hci_predicted_reading *o)
+/* ---- of a slope ---- */
+
+/* Whether samples lie too far apart for their torques to tell what is between them. */
+static bool is_coarse_slope(const hci_regression *e, const hci_effects *effects, const hci_segment *s,
+                            const hci_predicted_reading *o)
+{
+    return is_slope(e, s) && !o->instant && s->turns == 0 && s->count > 2 &&
+           e->runs[s->run].torque_window > 2 &&
+           hci_is_coarse(e->samples->sample + s->first, s->count, hci_finest_order(e->machine, effects));
+}
+
+/* The mean of the torque from sample k of a segment to the next one. */
+static void step_fill(const hci_regression *e, const hci_effects *effects, const hci_segment *s, size_t k,
+                      hci_predicted_reading *o)
+{
+    const hci_binned_sample *at = e->samples->sample + s->first + k;
+    const hci_sample *from = e->raw ? &at[0].raw : &at[0].reading, *to = e->raw ? &at[1].raw : &at[1].reading;
+    const size_t count = hci_between_count(from, to, hci_finest_order(e->machine, effects));
+    double *mean = o->by_value ? o->by_value + k * o->terms : NULL, *row = mean ? o->row : NULL;
+    o->torque_Nm[k] = 0.0;
+    if (mean) memset(mean, 0, o->terms * sizeof *mean);
+    for (size_t j = 0; j < count; ++j) {
+        const hci_sample x = hci_between_at(from, to, e->machine->pole_pairs, j, count);
+        const place there = {&e->runs[s->run], &x, NULL};
+        o->torque_Nm[k] += torque_at(e, effects, &there, o, row) / (double)count;
+        for (size_t c = 0; row && c < o->terms; ++c)
+            mean[c] += row[c] / (double)count;
+    }
+}
+
+/* Puts the means of the steps from sample to sample in place of the torques at them. */
+static void steps_fill(const hci_regression *e, const hci_effects *effects, const hci_segment *s,
+                       hci_predicted_reading *o)
+{
+    for (size_t k = 0; k < s->count; ++k)
+        o->time_s[k] = e->samples->sample[s->first + k].time_s;
+    for (size_t k = 0; k + 1 < s->count; ++k)
+        step_fill(e, effects, s, k, o);
+}
+
+/* The slopes over a window of the torque and of its derivatives. */
+static void windows_take(size_t count, size_t window, bool of_steps, hci_predicted_reading *o)
+{
+    void (*take)(const double *, size_t, size_t, double *, size_t, double *) =
+        of_steps ? hci_slope_average_of_steps : hci_slope_average;
+    take(o->time_s, count, window, o->torque_Nm, 1, o->work);
+    for (size_t c = 0; o->by_value && c < o->terms; ++c)
+        take(o->time_s, count, window, o->by_value + c, o->terms, o->work);
+}
+
+/* The mean over the windows of the slopes that make an acceleration. of_steps: of what steps_fill left. */
+static void average(const hci_regression *e, const hci_segment *s, size_t count, bool of_steps,
+                    hci_predicted_reading *o)
 {
     const hci_run *run = &e->runs[s->run];
-    const size_t window[] = {window_in(run, s, run->speed_window), window_in(run, s, run->torque_window)};
-    for (size_t k = 0; k < 2; ++k) {
-        hci_slope_average(o->time_s, count, window[k], o->torque_Nm, 1, o->work);
-        for (size_t c = 0; o->by_value && c < o->terms; ++c)
-            hci_slope_average(o->time_s, count, window[k], o->by_value + c, o->terms, o->work);
-    }
+    windows_take(count, window_in(run, s, run->torque_window), of_steps, o);
+    windows_take(count, window_in(run, s, run->speed_window), false, o);
 }
 
 void hci_predicted_reading_fill(const hci_regression *e, const hci_effects *effects, const hci_segment *s,
@@ -412,8 +474,13 @@ void hci_predicted_reading_fill(const hci_regression *e, const hci_effects *effe
     const bool sensor = hci_predicted_reading_is_dynamic(e, s), dynamic = sensor && has_dynamics(effects);
     const size_t turns = turns_through(e, s), lag = dormant_lag(effects);
     size_t lead = 0;
-    fill_static(e, effects, s, o);
-    means_widen(e, s, o);
+    const bool of_steps = is_coarse_slope(e, effects, s, o);
+    if (of_steps)
+        steps_fill(e, effects, s, o);
+    else {
+        fill_static(e, effects, s, o);
+        means_widen(e, s, o);
+    }
     if (o->by_value && sensor && lag < o->terms)
         lag_derivative(o->torque_Nm, o->time_s, s->count, o->by_value + lag, o->terms);
     for (size_t turn = 1; turn < turns; ++turn)
@@ -424,7 +491,7 @@ void hci_predicted_reading_fill(const hci_regression *e, const hci_effects *effe
     } else if (dynamic)
         lead = lead_in(e, s, o);
     if (dynamic) hci_effects_filter(effects, o->time_s, lead + s->count, o->torque_Nm, o->by_value);
-    if (is_slope(e, s) && !o->instant) average(e, s, turns * s->count, o);
+    if (is_slope(e, s) && !o->instant) average(e, s, turns * s->count, of_steps, o);
     if (lead > 0) turn_keep(o, s->count, lead);
     if (turns > 1) turn_keep(o, s->count, turns / 2 * s->count);
 }

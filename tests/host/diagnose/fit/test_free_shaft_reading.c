@@ -57,6 +57,50 @@ static void test_averaged_over_the_same_window(void)
     TEST_ASSERT_DOUBLE_WITHIN(2e-3, 1.4826 * 0.135 * 1.5 * K_NM_PER_A / sqrt(2.0), within_Nm); /* median */
 }
 
+/* A coast from 140 to 10 rad/s by a current of −B/(1.5·0.2 N·m/A), over a cogging torque of order 12, 36
+ * periods in a turn, that turns by 5 rad from sample to sample when it begins. The motion is that of the
+ * torque, in hundredths of a sample. */
+static void record_coast(double cogging_Nm)
+{
+    enum { PARTS = 100 };
+    hci_run *r = add_run(N);
+    const double part_s = STEP_S / PARTS, brake_Nm = 130.0 * J_KGM2 / (N * STEP_S);
+    double theta = 0.3, omega = 140.0;
+    r->torque_source = HCI_TORQUE_INERTIA;
+    r->torque_window = WINDOW;
+    for (size_t k = 0; k < N; ++k) {
+        r->time_s[k] = STEP_S * (double)k;
+        r->speed_rad_per_s[k] = omega;
+        r->theta_m_rad[k] = theta;
+        rec_phases(0.0, -brake_Nm / (1.5 * K_NM_PER_A), P * theta, r->i_A + 3 * k);
+        for (int j = 0; j < PARTS; ++j) {
+            const double half = theta + 0.5 * part_s * omega;
+            omega += part_s * (cogging_Nm * cos(12.0 * P * half) - brake_Nm) / J_KGM2;
+            theta = half + 0.5 * part_s * omega;
+        }
+    }
+    hci_derivative_over(r->time_s, r->speed_rad_per_s, N, WINDOW, r->torque_Nm);
+    for (size_t k = 0; k < N; ++k)
+        r->torque_Nm[k] *= J_KGM2;
+}
+
+/* Where an order turns by more than half a period between samples, its torques at them say nothing of their
+ * mean over a slope. */
+static void test_faster_than_sampled(void)
+{
+    const hci_harmonic cogging = {.order = 12.0, .cosine = 0.01, .sine = 0.0};
+    record_coast(cogging.cosine);
+    machine.model.cogging = &cogging;
+    machine.model.cogging_count = 1;
+    search_start();
+    const hci_status status =
+        hci_regression_residual(&dataset.regression, dataset.regression.declared, search.residual_Nm, &note);
+    machine.model.cogging = NULL;
+    machine.model.cogging_count = 0;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, status);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-4, 0.0, hci_search_residual_rms(&search));
+}
+
 /* Samples that tell no torque have no residual, and the noise is that of the others. */
 static void test_samples_that_tell_nothing(void)
 {
@@ -79,6 +123,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_averaged_over_the_same_window);
+    RUN_TEST(test_faster_than_sampled);
     RUN_TEST(test_samples_that_tell_nothing);
     return UNITY_END();
 }

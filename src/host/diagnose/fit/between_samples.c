@@ -1,0 +1,61 @@
+#include "host/diagnose/fit/between_samples.h"
+
+#include <math.h>
+
+#include "host/recording/rotor_frame.h"
+
+#define PART_RAD 2.0 /* that the finest order may turn by in a part of a step */
+#define FINE_RAD 1.0 /* from sample to sample, up to which a cubic through them will do */
+
+enum { MOST_PARTS = 200 };
+
+double hci_finest_order(const hci_machine *machine, const hci_effects *effects)
+{
+    double finest = 0.0;
+    for (size_t k = 0; k < machine->cogging_count; ++k)
+        finest = fmax(finest, machine->cogging[k].order);
+    for (size_t k = 0; k < effects->count; ++k)
+        for (size_t j = 0; j < effects->effect[k].count; ++j)
+            finest = fmax(finest, effects->effect[k].term[j].order);
+    return finest * machine->pole_pairs;
+}
+
+static double turned(const hci_sample *from, const hci_sample *to, double finest_order)
+{
+    return finest_order * fabs(to->theta_m_rad - from->theta_m_rad);
+}
+
+bool hci_is_coarse(const hci_binned_sample *sample, size_t count, double finest_order)
+{
+    for (size_t k = 1; k < count; ++k)
+        if (turned(&sample[k - 1].reading, &sample[k].reading, finest_order) > FINE_RAD) return true;
+    return false;
+}
+
+size_t hci_between_count(const hci_sample *from, const hci_sample *to, double finest_order)
+{
+    const double parts = ceil(turned(from, to, finest_order) / PART_RAD);
+    return 2 * (size_t)fmin(fmax(parts, 1.0), MOST_PARTS);
+}
+
+static double along(double from, double to, double share)
+{
+    return from + share * (to - from);
+}
+
+hci_sample hci_between_at(const hci_sample *from, const hci_sample *to, int pole_pairs, size_t k,
+                          size_t count)
+{
+    const double of_part = k % 2 == 0 ? 0.5 - 0.5 / sqrt(3.0) : 0.5 + 0.5 / sqrt(3.0);
+    const double share = 2.0 * ((double)(k / 2) + of_part) / (double)count;
+    const hci_dq a = hci_sample_dq(from, pole_pairs), b = hci_sample_dq(to, pole_pairs);
+    const hci_dq i = {along(a.d, b.d, share), along(a.q, b.q, share), along(a.zero, b.zero, share)};
+    hci_sample x = *from;
+    x.theta_m_rad = along(from->theta_m_rad, to->theta_m_rad, share);
+    x.speed_rad_per_s = along(from->speed_rad_per_s, to->speed_rad_per_s, share);
+    x.acceleration_rad_per_s2 = along(from->acceleration_rad_per_s2, to->acceleration_rad_per_s2, share);
+    x.temperature_C = along(from->temperature_C, to->temperature_C, share);
+    x.elapsed_s = along(from->elapsed_s, to->elapsed_s, share);
+    hci_phases_of_dq(i, pole_pairs * x.theta_m_rad, x.i_abc);
+    return x;
+}

@@ -1,0 +1,24 @@
+/* What a model is asked between two samples of a recording.
+ *
+ * In: two samples of a shaft that turns, and the finest order of the torque. Out: so many samples between
+ * them, by the rule of Gauss of two points in each part of the step, that their mean is that of the torque:
+ * an order that turns by two radians in a part is off by 0.5 % of it. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_FIT_BETWEEN_SAMPLES_H
+#define HCI_SRC_HOST_DIAGNOSE_FIT_BETWEEN_SAMPLES_H
+
+#include "host/diagnose/fit/regression.h"
+
+/* The finest order of the torque of a model, in periods of a mechanical turn. O(terms + harmonics). */
+double hci_finest_order(const hci_machine *machine, const hci_effects *effects);
+
+/* Whether between two samples of a segment such an order turns by more than a radian. O(samples). */
+bool hci_is_coarse(const hci_binned_sample *sample, size_t count, double finest_order);
+
+/* How many samples between two make the mean from one to the other; at least 2. */
+size_t hci_between_count(const hci_sample *from, const hci_sample *to, double finest_order);
+
+/* Sample k of `count` between two: angle, speed and currents in the rotor frame along straight lines. */
+hci_sample hci_between_at(const hci_sample *from, const hci_sample *to, int pole_pairs, size_t k,
+                          size_t count);
+
+#endif
