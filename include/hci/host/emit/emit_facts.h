@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "hci/host/machine/corrections.h"
 #include "hci/host/machine/machine.h"
 
 #ifdef __cplusplus
@@ -21,6 +22,7 @@ typedef struct {
     double magnets_C;               /* temperature of the declared back-EMF; with emf_per_kelvin */
     bool angle_of_logs;             /* theta is that of the recordings, whose zero is not known to be that of
                                      * the back-EMF */
+    char corrections[HCI_CORRECTIONS_SIZE]; /* of the sensors that the machine was recorded with; "": none */
 } hci_emit_facts;
 
 /* What the folder of a machine says, as hci_machine_read has read it; mean_torque_Nm stays. HCI_ERROR_INPUT,
