@@ -1,5 +1,6 @@
 #define _POSIX_C_SOURCE 200809L
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -18,6 +19,7 @@
 #include "hci/host/diagnose/again.h"
 #include "hci/host/report/summary.h"
 #include "hci/host/report/write.h"
+#include "hci/math/harmonic.h"
 
 enum { RUNS, AGAIN, OUT, TARGET, RESOLUTION, ORDER_BASE, REPORT, HOLDING, CLI_READING_KEYS, CLI_COMMON_KEYS };
 
@@ -112,6 +114,31 @@ static hci_status read_last(const char *list, inputs *in, hci_note *note)
     return hci_runs_read(list, &reading, &in->runs, note);
 }
 
+/* The offset of the angle that all recordings were read with; 0: none, or not the same. */
+static double common_offset_rad(const hci_runs *runs)
+{
+    const double first_rad = runs->count > 0 ? runs->run[0].zero_offset_rad : 0.0;
+    for (size_t k = 1; k < runs->count; ++k)
+        if (fabs(runs->run[k].zero_offset_rad - first_rad) > 0.0) return 0.0;
+    return first_rad;
+}
+
+/* New recordings without the offset that all of the last had would contradict them. */
+static hci_status check_offset(const cli_arguments *a, const hci_runs *last, const hci_runs *more,
+                               hci_note *note)
+{
+    const double last_deg = common_offset_rad(last) * 180.0 / HCI_PI;
+    if (a->value[ANGLE_OFFSET] || !(fabs(last_deg) > 0.0)) return HCI_OK;
+    for (size_t k = 0; k < more->count; ++k)
+        if (fabs(more->run[k].zero_offset_rad) > 0.0) return HCI_OK;
+    return hci_note_set(
+        note, HCI_ERROR_INPUT,
+        "%s: no angle_offset for the new recordings, but those of the last diagnosis were read "
+        "with %.6g degrees; add --angle-offset %.6g, or --angle-offset 0 where the zero of the "
+        "angle is another one now",
+        a->value[RUNS], last_deg, last_deg);
+}
+
 /* The recordings of the last diagnosis, if there was one, and the new ones behind them. */
 static hci_status read_runs(const cli_arguments *a, inputs *in, hci_note *note)
 {
@@ -124,6 +151,7 @@ static hci_status read_runs(const cli_arguments *a, inputs *in, hci_note *note)
     hci_status status = read_last(list, in, note);
     in->recordings_before = in->runs.count;
     if (!status) status = hci_runs_read(a->value[RUNS], &reading, &more, note);
+    if (!status) status = check_offset(a, &in->runs, &more, note);
     if (!status) status = hci_runs_join(&in->runs, &more, note);
     hci_runs_release(&more);
     return status;

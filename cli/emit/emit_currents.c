@@ -22,6 +22,8 @@ static hci_status read_facts(const cli_arguments *a, cli_emit_currents *in, hci_
     if (hci_solution_is_folder(a->word[0]) &&
         hci_solution_read_mean_torque(a->word[0], &facts->mean_torque_Nm, &none) != HCI_OK)
         facts->mean_torque_Nm = 0.0;
+    if (facts->mean_torque_Nm != 0.0 && hci_solution_read_made_torque(a->word[0]) != 0.0)
+        facts->mean_torque_Nm = hci_solution_read_made_torque(a->word[0]);
     if (!a->given[EMIT_MACHINE]) return HCI_OK;
     status = hci_machine_read_orders(a->value[EMIT_MACHINE], (hci_order_base)a->choice[EMIT_ORDER_BASE],
                                      &in->machine, note);

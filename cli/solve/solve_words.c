@@ -155,12 +155,18 @@ static void show_current(const hci_solution *s)
     cli_say("\n");
 }
 
-static void show_expected(const hci_expected_ripple *e)
+static void show_expected(const hci_solution *s)
 {
     char words[1024];
-    hci_expected_ripple_words(e, words, sizeof words);
+    hci_expected_ripple_words(&s->expected, words, sizeof words);
     cli_say("  on the real machine\n");
     cli_say_paragraph(4, words);
+    if (!s->corrections[0]) return;
+    cli_say("  sensors\n");
+    cli_say_paragraph(4,
+                      "This holds for the true angle and the true current. A drive with the sensors of the "
+                      "recordings has to correct what they read:");
+    cli_say_paragraph(4, s->corrections);
 }
 
 /* Copper is a loss where the resistance is known. */
@@ -331,7 +337,7 @@ void cli_show_solution(const hci_solution *s, const char *machine, const char *t
             s->within_limits ? "" : ", but a limit is not kept", machine, target);
     show_torque(s, reached);
     show_ripple(s);
-    show_expected(&s->expected);
+    show_expected(s);
     show_current(s);
     show_limits(s);
     show_system(s);

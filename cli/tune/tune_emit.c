@@ -97,7 +97,8 @@ static void say_table(cli_tuning *t, const char *name, const char *folder, const
         "figures above; another --max-error of emit makes it less, or the table smaller.",
         folder, name, name, name, h->turns, h->turns == 1 ? "" : "s",
         cli_tune_offset(t) ? " with --angle-offset " : "", cli_tune_offset(t) ? cli_tune_offset(t) : "",
-        h->turns == 1 ? "" : ", not one: the angle goes on from turn to turn", t->mean_Nm, h->own_Nm);
+        h->turns == 1 ? "" : ", not one: the angle goes on from turn to turn", cli_tune_made_Nm(t),
+        h->own_Nm);
 }
 
 /* A map of one electrical turn, where that is all that the currents have; else of the mechanical one. */

@@ -165,6 +165,33 @@ static void say_offset(cli_tuning *t, const order_sum *sum, size_t count)
     }
 }
 
+/* Of the largest order, below which an order is no matter for the first line. */
+#define MUCH 0.1
+
+/* Once a mechanical turn: gravity on what is not balanced, as on an arm, is that and hardly a motor is. */
+static void say_once_a_turn(cli_tuning *t, const order_sum *sum, size_t count)
+{
+    const double order = 1.0 / t->declared.model.pole_pairs;
+    double most_Nm = 0.0;
+    for (size_t k = 0; k < count; ++k)
+        most_Nm = fmax(most_Nm, hypot(sum[k].sine_Nm, sum[k].cosine_Nm));
+    for (size_t k = 0; k < count && order < 1.0; ++k) {
+        const double amplitude_Nm = hypot(sum[k].sine_Nm, sum[k].cosine_Nm);
+        if (fabs(sum[k].order - order) > HCI_ORDER_TOLERANCE || amplitude_Nm < SURE * sum[k].std_error_Nm)
+            continue;
+        if (amplitude_Nm > MUCH * most_Nm) t->once_a_turn_Nm = amplitude_Nm;
+        hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                       "Whether the %.3g N·m once a mechanical turn (order %.5g) are of the motor: a weight "
+                       "on an arm, or "
+                       "what is out of balance on a shaft that does not stand upright, makes them as well. "
+                       "The table takes "
+                       "them away as they are; without that load it would add them. Record again with "
+                       "nothing on the shaft, "
+                       "or with the shaft upright.",
+                       amplitude_Nm, order);
+    }
+}
+
 static void say_cogging(cli_tuning *t)
 {
     static order_sum sum[MOST_ORDERS];
@@ -181,10 +208,12 @@ static void say_cogging(cli_tuning *t)
                 most = &sum[k];
         const order_sum o = *most;
         *most = sum[shown];
+        sum[shown] = o;
         hci_tuning_say(&t->tuning, HCI_TUNING_FOUND, "  order %.5g: %.4g ± %.1g N·m", o.order,
                        hypot(o.sine_Nm, o.cosine_Nm), o.std_error_Nm);
     }
     say_offset(t, sum, count);
+    say_once_a_turn(t, sum, count);
     size_t from = 0;
     if (isfinite(t->cogging.friction_Nm) && !next_found(t, is_friction, &from))
         hci_tuning_say(&t->tuning, HCI_TUNING_FOUND,

@@ -1,6 +1,9 @@
 #include "cli/tune/tune_steps.h"
 
+#include <math.h>
+
 #include "cli/tune/tune_read.h"
+#include "hci/math/harmonic.h"
 
 /* A table over an angle whose zero is unknown cannot be played. */
 static bool has_no_angle(const hci_run *r)
@@ -62,9 +65,42 @@ static void choose_log(cli_tuning *t)
     t->tuning.log_name = cli_tune_name_of(t, shown);
 }
 
+/* Electrical degrees: less is the noise of an encoder. */
+#define STANDS_DEG 1.0
+
+static bool stands(const hci_run *r)
+{
+    double least = HUGE_VAL, most = -HUGE_VAL;
+    for (size_t k = 0; k < r->count && r->theta_m_rad; ++k) {
+        least = fmin(least, r->theta_m_rad[k]);
+        most = fmax(most, r->theta_m_rad[k]);
+    }
+    return r->theta_m_rad && r->pole_pairs * (most - least) < STANDS_DEG * HCI_PI / 180.0;
+}
+
+/* Several recordings, of one angle each, may be a holding test in steps. */
+static bool all_stand_at_one(const cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count; ++k)
+        if (!stands(&t->runs.run[k])) return false;
+    return t->runs.count == 1;
+}
+
+/* Times what the current makes: so much an inertia does not answer in a shaft that control turns slowly. */
+#define NOT_BELIEVABLE 30.0
+
+static void judge_inertia(cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count && t->declared.inertia_kgm2 > 0.0; ++k)
+        if (t->runs.run[k].inertia_share > NOT_BELIEVABLE)
+            t->inertia_share = fmax(t->inertia_share, t->runs.run[k].inertia_share);
+}
+
 /* Why nothing can be done with what is there. */
 static void judge_runs(cli_tuning *t)
 {
+    judge_inertia(t);
+    t->has_standstill = all_stand_at_one(t);
     for (size_t k = 0; k < t->runs.count; ++k) {
         t->has_unsteady = t->has_unsteady || t->runs.run[k].is_unsteady;
         t->has_no_angle = t->has_no_angle || has_no_angle(&t->runs.run[k]);

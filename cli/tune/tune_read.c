@@ -18,7 +18,8 @@
 
 bool cli_tune_is_blocked(const cli_tuning *t)
 {
-    return t->has_slip || t->has_misfit || t->has_unsteady || t->has_no_angle || t->has_alias;
+    return t->has_slip || t->has_misfit || t->has_unsteady || t->has_no_angle || t->has_alias ||
+           t->has_standstill || t->inertia_share > 0.0;
 }
 
 double cli_tune_order_of_slots(const cli_tuning *t)

@@ -45,7 +45,11 @@ typedef struct {
     bool needs_inertia; /* the current of a slow turn does not tell its cogging torque without the inertia */
     bool has_misfit;    /* angle, order or speed contradict each other, and no slip explains it */
     bool counts_pole_pairs; /* something in the recordings does */
-    bool has_doubt;         /* check does not understand something else */
+    double
+        inertia_share; /* of the recording where it is largest, as in hci_run; 0: the inertia is believable */
+    bool has_standstill;   /* the angle changes in none of the recordings */
+    double once_a_turn_Nm; /* cogging torque of once a turn that a load on the shaft may make; 0: none */
+    bool has_doubt;        /* check does not understand something else */
     bool has_alias;  /* samples lie too far apart for the order of slots and poles, which shows as another one
                       */
     bool has_offset; /* recordings are read with an angle offset that was found here */
@@ -81,6 +85,9 @@ bool cli_tune_is_blocked(const cli_tuning *tune);
 
 /* The electrical order of the cogging torque of slots and poles; 0: the slots are not given. */
 double cli_tune_order_of_slots(const cli_tuning *tune);
+
+/* The mean torque that the solved currents make, in N·m; not above the wanted one where limits act. */
+double cli_tune_made_Nm(const cli_tuning *tune);
 
 /* Whether the torque of a recording was typed, and none is measured. */
 bool cli_tune_is_typed(const cli_tuning *tune);

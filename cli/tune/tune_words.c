@@ -222,8 +222,9 @@ static void say_next_on_machine(cli_tuning *t)
     else if (!has_sensor(t))
         hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
                        "On the same bench: the same slow turn forward and back with the table in the drive "
-                       "shows what is left of "
-                       "the cogging torque; spins at two other speeds, each in both directions, tell "
+                       "shows what is left of the cogging torque in what the speed still varies by, and in "
+                       "i_q less the i_q of the table; i_q as it is measured has the table in it, and looks "
+                       "as before. Spins at two other speeds, each in both directions, tell "
                        "friction. What load "
                        "adds takes a torque sensor.");
     else if (loads_of(t) >= ENOUGH_LOADS && t->diagnosis.verdict >= HCI_DIAGNOSIS_PARTLY)
@@ -264,6 +265,14 @@ static void say_next_turn(cli_tuning *t)
     hci_tuning *r = &t->tuning;
     if (t->has_no_angle)
         say_next_angle(t);
+    else if (t->inertia_share > 0.0)
+        hci_tuning_say(r, HCI_TUNING_NEXT,
+                       "Give --inertia in kg·m², or leave it out: turns forward and back tell whether it "
+                       "matters.");
+    else if (t->has_standstill)
+        hci_tuning_say(r, HCI_TUNING_NEXT,
+                       "Turn the shaft slowly under position control, one turn forward and one back, and log "
+                       "angle and i_q; if it did turn, the column that was read as the angle is not it.");
     else if (t->has_unsteady && !t->has_slip && !t->has_misfit)
         hci_tuning_say(
             r, HCI_TUNING_NEXT,
@@ -312,7 +321,10 @@ static void say_next_correction(cli_tuning *t)
             r, HCI_TUNING_NEXT,
             "Correct what the first line and `slip` name (in the log, by its header or by --column, or in "
             "%s), and begin again with a new --out.",
-            t->machine);
+            !t->is_own                       ? t->machine
+            : t->arguments->given[TUNE_VOLT] ? "the options of the motor: --volt-of says of what the voltage "
+                                               "is, such as line-peak"
+                                             : "the options of the motor");
 }
 
 static void say_next(cli_tuning *t)
@@ -460,11 +472,70 @@ static void set_heading(cli_tuning *t)
         snprintf(r->heading, sizeof r->heading, "Nothing was found that would make a ripple");
 }
 
+double cli_tune_made_Nm(const cli_tuning *t)
+{
+    return t->solution.order_count > 0 ? t->solution.order[0].torque_Nm.cosine : t->mean_Nm;
+}
+
+/* Of the wanted mean torque, that may be missing and not be spoken of. */
+#define NEAR_WANTED 0.005
+
+static bool misses_torque(const cli_tuning *t)
+{
+    return t->is_solved && fabs(cli_tune_made_Nm(t) - t->mean_Nm) > NEAR_WANTED * t->mean_Nm;
+}
+
+static double largest_recorded_A(const cli_tuning *t)
+{
+    double most_A = 0.0;
+    for (size_t k = 0; k < t->runs.count; ++k)
+        for (size_t n = 0; n < 3 * t->runs.run[k].count; ++n)
+            most_A = fmax(most_A, fabs(t->runs.run[k].i_A[n]));
+    return most_A;
+}
+
+/* Times the largest recorded current, beyond which a wrong unit is more likely than a load that was not
+ * recorded. */
+#define FAR_BEYOND 100.0
+
+static bool is_far_beyond(const cli_tuning *t)
+{
+    const double most_A = largest_recorded_A(t);
+    return t->is_solved && most_A > 0.0 && t->solution.peak_phase_current_A > FAR_BEYOND * most_A;
+}
+
+/* A table with which the known ripple is not smaller in the very model that it was solved for. */
+static bool is_of_no_use(const cli_tuning *t)
+{
+    double before_Nm, after_Nm;
+    if (!t->is_solved || !hci_tuning_knows_ripple(&t->solution)) return false;
+    swing_of(t, &before_Nm, &after_Nm);
+    return before_Nm >= t->solution.tolerance_Nm && after_Nm >= before_Nm;
+}
+
 /* What a reader of the heading alone has to know. */
 static void add_to_heading(cli_tuning *t)
 {
     char *heading = t->tuning.heading;
     const size_t size = sizeof t->tuning.heading;
+    if (t->is_solved && *t->solution.corrections)
+        snprintf(heading + strlen(heading), size - strlen(heading),
+                 "; this once the drive's sensors, where they are those of the logs, are corrected: %s",
+                 t->solution.corrections);
+    if (misses_torque(t))
+        snprintf(heading + strlen(heading), size - strlen(heading),
+                 "; the table makes %.4g N·m on average, and not the %.4g N·m that were wanted",
+                 cli_tune_made_Nm(t), t->mean_Nm);
+    if (is_far_beyond(t))
+        snprintf(heading + strlen(heading), size - strlen(heading),
+                 "; its peak current, %.3g A, is %.2g times the largest recorded one, %.3g A: are the rated "
+                 "current and the torque in A and N·m?",
+                 t->solution.peak_phase_current_A, t->solution.peak_phase_current_A / largest_recorded_A(t),
+                 largest_recorded_A(t));
+    if (t->once_a_turn_Nm > 0.0)
+        snprintf(heading + strlen(heading), size - strlen(heading),
+                 "; of it %.3g N·m once a turn may be of what hangs on the shaft, and not of the motor",
+                 t->once_a_turn_Nm);
     if (reach_of_slopes(t) > 0.0)
         snprintf(heading + strlen(heading), size - strlen(heading),
                  "; these recordings do not show cogging torque above order %.3g", reach_of_slopes(t));
@@ -499,6 +570,9 @@ static const char *why_not_solved(const cli_tuning *t)
                  "explains it, so nothing was solved"
            : t->has_alias
                ? "Cogging torque of a higher order would look like one of a low order, so nothing was solved"
+           : t->has_standstill
+               ? "The angle of the rotor does not change in the logs: the shaft stands, and one angle tells "
+                 "neither cogging torque nor back-EMF, so nothing was solved"
            : t->has_no_angle
                ? "The log has no angle of the rotor, and a table over one whose zero nobody knows "
                  "cannot be played, so nothing was solved"
@@ -513,10 +587,30 @@ static const char *why_not_solved(const cli_tuning *t)
                               : "The logs tell neither cogging torque nor back-EMF, so nothing was solved";
 }
 
+/* 1 g·cm², in which data sheets state it. */
+#define GRAM_CM2 1e-7
+
+static void say_inertia(cli_tuning *t)
+{
+    const double inertia_kgm2 = t->declared.inertia_kgm2;
+    snprintf(
+        t->tuning.heading, sizeof t->tuning.heading,
+        "The inertia of %.4g kg·m² is not believable: by it the shaft would take %.2g times the torque that "
+        "the current makes to accelerate; above %.2g kg·m² it would be more than all of that. Is it in "
+        "another "
+        "unit (%.4g g·cm² are %.3g kg·m²)? Nothing was solved",
+        inertia_kgm2, t->inertia_share, inertia_kgm2 / t->inertia_share, inertia_kgm2,
+        GRAM_CM2 * inertia_kgm2);
+}
+
 static void say_why_not_solved(cli_tuning *t)
 {
     hci_tuning *r = &t->tuning;
     const char *column = lacks_torque(t) ? torque_like(t) : NULL;
+    if (t->inertia_share > 0.0 && !t->has_slip && !t->has_misfit) {
+        say_inertia(t);
+        return;
+    }
     snprintf(r->heading, sizeof r->heading, "%s", why_not_solved(t));
     if (column)
         snprintf(r->heading + strlen(r->heading), sizeof r->heading - strlen(r->heading),
@@ -531,8 +625,11 @@ static const char *verdict_of(const cli_tuning *t)
            : t->has_no_angle                               ? "not enough in the logs"
            : t->has_unsteady                               ? "the shaft sticks and slips"
            : t->has_alias                                  ? "the samples lie too far apart"
+           : t->inertia_share > 0.0                        ? "the inertia is not believable"
+           : t->has_standstill                             ? "not enough in the logs"
            : !t->is_emitted                                ? "not enough in the logs"
            : t->tuning.solved                              ? "tuned, but not as wanted"
+           : is_of_no_use(t)                               ? "a table of no use"
            : t->diagnosis.verdict == HCI_DIAGNOSIS_UNKNOWN ? "tuned with what is certain"
                                                            : "tuned, with something left open";
 }
@@ -545,7 +642,7 @@ void cli_tune_conclude(cli_tuning *t)
     say_unknown(t);
     if (hangs_on_lag(t)) say_lag(t);
     say_next(t);
-    r->good = t->is_emitted && !t->diagnosed && !r->solved && !t->has_doubt;
+    r->good = t->is_emitted && !t->diagnosed && !r->solved && !t->has_doubt && !is_of_no_use(t);
     snprintf(r->verdict, sizeof r->verdict, "%s", verdict_of(t));
     if (t->is_solved)
         set_heading(t);

@@ -145,6 +145,8 @@ refused 2 'found 0 words, expected 1: MACHINE' --runs list.csv -o refused
 refused 2 'found 1 word, expected 0: --again' machine --again out2 --runs list.csv -o refused
 refused 3 'later/declared/machine.csv: found no such file, expected the --out of a diagnosis' --again later --runs list.csv -o refused
 refused 3 'found .a.csv., expected new recordings only' --again out2 --runs list2.csv -o refused
+"$hci_solve" diagnose machine --runs list2.csv --angle-offset 0.001 -q -o turned >stdout 2>stderr
+refused 3 'no angle_offset for the new recordings, .* read with 0.001 degrees; add --angle-offset 0.001,' --again turned --runs later/list.csv --column torque_Nm=shaft -o refused
 refused 2 'resolution' machine --runs list.csv --resolution -3 -o refused
 refused 2 'resolution' machine --runs list.csv --resolution much -o refused
 refused 2 'unknown|no option|--nosuch' machine --runs list.csv --nosuch

@@ -163,6 +163,15 @@ hci_status hci_solution_read_mean_torque(const char *folder, double *torque_Nm, 
 
 /* ---- what solve said of them ---- */
 
+double hci_solution_read_made_torque(const char *path)
+{
+    double mean_Nm = 0.0;
+    char *text = hci_solution_is_folder(path) ? summary_of(path) : NULL;
+    if (text) hci_json_find_number(text, "torque", "mean_Nm", &mean_Nm);
+    hci_memory_free(text);
+    return mean_Nm;
+}
+
 double hci_solution_read_expected_ripple(const char *path)
 {
     double ripple_Nm = 0.0;

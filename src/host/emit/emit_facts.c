@@ -35,6 +35,7 @@ hci_status hci_emit_facts_read(const char *folder, const hci_machine_data *machi
     facts->rated_speed_rad_per_s =
         machine->rated_speed_rad_per_s > 0.0 ? machine->rated_speed_rad_per_s : 0.0; /* NAN: not given */
     take_magnets(&effects.list, facts);
+    hci_corrections_words(&effects.list, facts->corrections, sizeof facts->corrections);
     hci_effects_release(&effects);
     return HCI_OK;
 }

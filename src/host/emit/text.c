@@ -126,6 +126,22 @@ static void write_magnets(const hci_emit_facts *f, hci_output *out)
         hci_emission_number(f->magnets_C, reference), hci_emission_number(100.0 * f->emf_per_kelvin, share));
 }
 
+/* One to a line. */
+static void write_corrections(const hci_emit_facts *f, hci_output *out)
+{
+    const char *text = f->corrections;
+    if (!*text) return;
+    hci_output_text(out,
+                    " * Sensors: the currents are for the true angle and the true current. A drive with the\n"
+                    " *         sensors of the recordings has to correct what they read:\n");
+    while (*text) {
+        const char *end = strstr(text, ", ");
+        const int length = end ? (int)(end - text) : (int)strlen(text);
+        hci_output_text(out, " *         %.*s%s\n", length, text, end ? "," : ".");
+        text += end ? length + 2 : length;
+    }
+}
+
 /* The frequency that a current loop has to follow, which bounds the speed. */
 static void write_speed(const hci_emission *e, double highest, hci_output *out)
 {
@@ -147,6 +163,7 @@ void hci_emission_facts_of_machine(const hci_emit_facts *facts, hci_output *out)
 {
     write_motor(facts, out);
     write_magnets(facts, out);
+    write_corrections(facts, out);
 }
 
 void hci_emission_facts(const hci_emission *e, hci_output *out)

@@ -478,6 +478,35 @@ static void drop_typed(reader *r)
     run->torque_Nm = NULL;
 }
 
+/* Times what noise alone makes of a mean. */
+#define NOISE_OF_MEAN 5.0
+
+/* Whether the currents have nothing that turns with the rotor: offsets and noise of their sensors. */
+static bool nothing_turns(const hci_run *run)
+{
+    double d = 0.0, q = 0.0, square = 0.0;
+    for (size_t k = 0; k < run->count; ++k) {
+        const hci_dq i = hci_run_dq(run, run->pole_pairs, k);
+        d += i.d, q += i.q, square += i.d * i.d + i.q * i.q;
+    }
+    return hypot(d, q) <= NOISE_OF_MEAN * sqrt(square);
+}
+
+/* Frees a torque of 0 of a machine whose terminals are open: what turns it is not its current, so that it is
+ * no holding test, and its torque is not 0 but was not measured. */
+static void drop_zero_of_open(reader *r)
+{
+    hci_run *run = r->run;
+    if (run->torque_Nm == NULL || !is_zero(run->torque_Nm, run->count) || r->options->holding) return;
+    if (!run->v_V || run->voltage_is_dq || !run->theta_m_rad || r->no_currents || !nothing_turns(run)) return;
+    hci_note_add(&run->remark,
+                 "the torque is 0 in every row beside voltages and currents that do not turn with the rotor: "
+                 "another machine turns the shaft, and the torque is typed and not measured. It is not used");
+    run->torque_is_typed = true;
+    hci_memory_free(run->torque_Nm);
+    run->torque_Nm = NULL;
+}
+
 static hci_status read_torque(reader *r)
 {
     hci_run *run = r->run;
@@ -485,6 +514,7 @@ static hci_status read_torque(reader *r)
     if (!status) status = drop_computed(r);
     if (status) return status;
     drop_typed(r);
+    drop_zero_of_open(r);
     hci_run_computed_torque_leave(&r->columns);
     if (run->torque_is_typed) return HCI_OK; /* a load: neither a free shaft nor a holding test */
     if (run->torque_Nm == NULL && r->options->holding && r->no_currents)

@@ -126,6 +126,7 @@ void hci_slow_turn_correct(hci_run *run, int pole_pairs, double torque_constant_
         for (size_t s = 0; s < 3; ++s)
             run->i_A[3 * k + s] -= phases_A[s];
     }
+    run->inertia_share = made_Nm > 0.0 ? rms_Nm / made_Nm : 0.0;
     if (rms_Nm > WORTH_WORD * made_Nm)
         hci_note_add(&run->remark,
                      "inertia x acceleration, %.3g N·m rms, is taken out of the %.3g N·m that i_q makes",

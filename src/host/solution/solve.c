@@ -205,26 +205,25 @@ static hci_status verdict_of(const hci_solution *s)
 }
 
 /* Names of the effects that do not act in the machine, and what that means. */
-static void remark_left_out(const hci_effects *effects, hci_note *remark)
+static void remark_left_out(const hci_effects *effects, const char *corrections, hci_note *remark)
 {
     char names[256] = "";
-    bool senses = false;
     for (size_t k = 0; k < effects->count; ++k) {
         const size_t used = strlen(names);
         if (effects->effect[k].type->in_machine) continue;
-        senses = senses || effects->effect[k].type->sense || effects->effect[k].type->undo;
         snprintf(names + used, sizeof names - used, "%s%s", used > 0 ? ", " : "",
                  effects->effect[k].type->name);
     }
     hci_note_add(
         remark,
         "effects.csv: not compensated, since it acts on the shaft or in a sensor and not in the machine: "
-        "%s%s",
+        "%s%s%s",
         names,
-        senses
+        *corrections
             ? "; the currents are for the true angle and the true current, so the drive that plays them has "
-              "to correct what its sensors read"
-            : "");
+              "to correct what its sensors read, where they are those of the recordings: "
+            : "",
+        corrections);
 }
 
 /* Everything that is freed when a solution is made. */
@@ -339,7 +338,10 @@ hci_status hci_solve(const hci_machine_data *machine, const hci_solve_options *o
         hci_limits_remark_declared(machine, &w.bounds, solution);
     }
     if (!status) hci_limits_remark_open(&w.bounds, solution);
-    if (!status && w.model.left_out > 0) remark_left_out(options->effects, &solution->remark);
+    if (!status && options->effects)
+        hci_corrections_words(options->effects, solution->corrections, sizeof solution->corrections);
+    if (!status && w.model.left_out > 0)
+        remark_left_out(options->effects, solution->corrections, &solution->remark);
     hci_answer_release(&w.answer);
     hci_answer_release(&w.held.as_they_come);
     hci_linear_torque_release(&w.at);

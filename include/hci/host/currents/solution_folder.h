@@ -46,6 +46,10 @@ hci_status hci_solution_read_mean_torque(const char *folder, double *torque_Nm, 
 /* The same, 0 where it was solved without a mean torque. */
 hci_status hci_solution_read_wanted_torque(const char *folder, double *torque_Nm, hci_note *note);
 
+/* The mean torque in N·m that the currents of such a folder make, which limits may keep below the wanted one;
+ * 0: not known. */
+double hci_solution_read_made_torque(const char *path);
+
 /* What `solve` expects of them on the machine, peak to peak in N·m (95 %); 0: not known, or one file. */
 double hci_solution_read_expected_ripple(const char *path);
 

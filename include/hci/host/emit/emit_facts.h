@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "hci/host/machine/corrections.h"
 #include "hci/host/machine/machine.h"
 
 #ifdef __cplusplus
@@ -23,6 +24,7 @@ typedef struct {
                                      * the back-EMF */
     double angle_offset_deg;        /* that theta is ahead of the electrical angle of the recordings; 0: it is
                                      * that angle, or nothing is known of them */
+    char corrections[HCI_CORRECTIONS_SIZE]; /* of the sensors that the machine was recorded with; "": none */
 } hci_emit_facts;
 
 /* What the folder of a machine says, as hci_machine_read has read it; mean_torque_Nm stays. HCI_ERROR_INPUT,

@@ -49,7 +49,9 @@ typedef struct {
     bool turn_known;  /* the angle is mechanical, or an electrical one that is not wrapped: orders k/p are in
                          it */
     bool is_unsteady; /* a holding test whose shaft sticks and slips: its current tells no cogging torque */
-    bool slow_beside_others;   /* a slow turn by what other recordings of its list tell, not by itself */
+    bool slow_beside_others; /* a slow turn by what other recordings of its list tell, not by itself */
+    double inertia_share;    /* rms of the inertia x acceleration that was taken out of the current, over the
+                              * torque    that the current makes; 0: nothing was */
     double turns_inertia_kgm2; /* that makes the torques of slow turns agree, taken out; 0: none was found */
     bool needs_inertia; /* a slow turn of which the current answers a part that only the inertia tells: it has
                          * no torque */

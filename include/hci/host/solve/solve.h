@@ -8,6 +8,7 @@
 #include "hci/host/base/progress.h"
 #include "hci/host/currents/currents.h"
 #include "hci/host/currents/target.h"
+#include "hci/host/machine/corrections.h"
 #include "hci/host/machine/expected_ripple.h"
 #include "hci/host/machine/machine.h"
 #include "hci/machine/strategy.h"
@@ -260,6 +261,9 @@ typedef struct {
     bool with_effects;            /* torque and voltage are those of the machine with its effects */
     hci_machine_identity machine; /* they are of */
     hci_note remark;              /* what the user should know of them, or "" */
+    /* What the drive has to correct where it has the sensors of the recordings, as hci_corrections_words says
+     * it, or "". */
+    char corrections[HCI_CORRECTIONS_SIZE];
 } hci_solution;
 
 /* Finds the currents. HCI_OK; HCI_NOT_REACHED with the nearest result when a cared-for order is not within

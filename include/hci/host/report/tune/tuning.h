@@ -26,7 +26,7 @@ enum { HCI_TUNING_TEXT = 16384, HCI_TUNING_POINTS = 1441 };
 /* All of it. Start with {0}; texts are lines, each ended by '\n'. */
 typedef struct {
     bool good;                                    /* everything could be done and is known */
-    char verdict[64], heading[512];               /* in a word, and as a sentence */
+    char verdict[64], heading[2048];              /* in a word, and as a sentence */
     char part[HCI_TUNING_PARTS][HCI_TUNING_TEXT]; /* "": nothing to say */
     char commands[HCI_TUNING_TEXT];               /* the steps, for a shell */
     const hci_solution *solution;                 /* the currents; NULL: none were solved */

@@ -1,0 +1,68 @@
+#!/bin/sh
+# What tune promises, and under which conditions: sensors that the drive has to correct, the torque that the table makes, an inertia and
+# currents in a wrong unit, a shaft that stands, a weight on the shaft, a torque of 0 that was typed.
+# labels: slow
+#   cli_tune_promise.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+. "$1/tests/support/common.sh"
+use_plain_build
+cd "$work" || exit 1
+
+# ---- sensors that were found are to be corrected, on standard output and in the header
+
+mkdir sensors
+printf 'name,value,unit\npole_pairs,7,1\n' >sensors/machine.csv
+printf 'order,amplitude_Nm_per_A,phase_rad\n1,0.1,0\n' >sensors/back_emf.csv
+printf 'order,amplitude_Nm,phase_rad\n12,0.02,0.3\n' >sensors/cogging.csv
+cp -r sensors bench
+printf 'effect,parameter,value,unit,std_error\ncurrent_offset,a,0.05,A,\ncurrent_offset,b,-0.04,A,\ncurrent_gain,c,0.01,1,\nposition_offset,angle,0.02,rad,\nchannel_delay,angle,1e-5,s,\n' >sensors/effects.csv
+printf 'effect,parameter,value,unit,std_error\ntorque_sensor,offset,0.05,Nm,\nchannel_delay,torque,1e-3,s,\n' >bench/effects.csv
+printf 'order,amplitude_Nm,phase_rad\n0,0.5,0\n' >target.csv
+run 0 solve sensors --target target.csv --auto -o solved
+check "the sensors are not on standard output" grep -q 'subtract 0.05 A from i_a, add 0.04 A to i_b, divide i_c by 1.01,' "$work/stdout"
+says 'note: .*from the electrical angle, add the speed times 1e-05 s to the angle'
+run 0 emit solved --name corrected --machine sensors -o solved
+check "the header has no sensors" grep -q '^ \*         divide i_c by 1\.01,$' solved/corrected.h
+run 0 solve bench --target target.csv --auto -o alone
+check "a torque sensor is corrected by the drive" [ "$(grep -c 'sensors' "$work/stdout")" -eq 0 ]
+
+# ---- a slow turn, forward and back
+
+# NAME ONCE: i_q answers cogging torque of order 12, and this much of once a turn
+slow_turn() {
+    awk -v once="$2" 'BEGIN { srand(1); print "time_s,theta_m_rad,speed_rad_per_s,id_A,iq_A"; turn = 6.283185307179586; w = 1.2566
+        for (k = 0; k < 4000; ++k) { t = 0.005 * k; way = t < 10 ? 1 : -1; x = w * (10 + (t - 10) * way); n = 84 * x
+            printf "%.3f,%.6f,%.5f,0,%.5f\n", t, x + 0.02 * sin(n) / 84, way * w * (1 + 0.02 * cos(n)),
+                way * 0.05 + 0.3 * sin(n + 0.4) + once * sin(x) + 0.03 * cos(7 * x) + 0.004 * (rand() - 0.5) } }' >"$1"
+}
+slow_turn slow.csv 0
+run 0 tune slow.csv --pole-pairs 7 --kv 120 --rated-current 3 -o plain
+check "order 1 is told $(grep -c 'Whether order 1 is of' "$work/stdout") times" [ "$(grep -c 'Whether order 1 is of' "$work/stdout")" -eq 1 ]
+says 'i_q as it' 'less the i_q of the'
+check "once a turn although it is not there" [ "$(grep -c 'once a' "$work/stdout")" -eq 0 ]
+run 1 tune slow.csv --pole-pairs 7 --kv 120 --rated-current 3 --torque 5 -o much
+made=$(sed -n 's/^.*; the table makes \([0-9.]*\) N·m on average, and not the 5 N·m that were wanted.*/\1/p' "$work/stdout")
+check "the mean of the table is '$made' N·m" awk -v made="$made" 'BEGIN { exit !(made > 0.1 && made < 0.3) }'
+check "the header has another torque" awk -v made="$made" '/^ \* Torque:/ { exit !(($3 - made) ^ 2 < 1e-8) }' much/table/tuned.h
+run 1 tune slow.csv --pole-pairs 7 --kv 120 --rated-current 3 --inertia 200 -o grams
+says '^the inertia is not believable: The inertia of 200 kg·m² .*200 g·cm² are 2e-05 kg·m²'
+check "a table of an inertia that is not believable" [ ! -e grams/table ]
+run 1 tune slow.csv --pole-pairs 7 --kv 120 --rated-current 300000 -o milli
+says '^a table of no use: .* times the largest recorded one'
+awk -F, -v OFS=, 'NR > 1 { $2 = 0.245; $3 = 0 } 1' slow.csv >still.csv
+run 1 tune still.csv --pole-pairs 7 --kv 120 -o still
+says '^not enough in the logs: The angle of the rotor does not change'
+check "a table of one angle" [ ! -e still/table ]
+slow_turn weight.csv 0.2
+run 0 tune weight.csv --pole-pairs 7 --kv 120 --rated-current 3 -o weight
+says '^tuned: .*once a turn may be of what hangs on the shaft' 'Whether the 0\.0[0-9]* N·m once a mechanical turn'
+
+# ---- another machine turns the shaft of open terminals, and the torque is typed as 0
+
+awk 'BEGIN { srand(3); print "time_s,theta_m_rad,speed_rad_per_s,va_V,vb_V,vc_V,ia_A,ib_A,ic_A,torque_Nm"; turn = 6.283185307179586
+    for (k = 0; k < 7000; ++k) { x = turn * k / 100; y = x - turn / 3; z = x + turn / 3
+        printf "%.4f,%.9f,1.2566,%.9f,%.9f,%.9f,%.4f,%.4f,%.4f,0\n", x / 7 / 1.2566, x / 7, 0.1 * sin(x), 0.1 * sin(y), 0.1 * sin(z),
+            0.06 + 0.02 * (rand() - 0.5), -0.04 + 0.02 * (rand() - 0.5), 0.02 * (rand() - 0.5) } }' >open.csv
+run 1 tune open.csv --pole-pairs 7 --kv 120 -o open
+check "not said: the torque is typed" grep -q 'another machine turns the shaft, and the torque is typed and not measured' open/summary.json
+check "the zeros of sensors are cogging torque" [ "$(grep -c 'cogging torque and what else' "$work/stdout")" -eq 0 ]
+finish
