@@ -2,7 +2,6 @@
 
 #include <math.h>
 
-#include "cli/tune/tune_read.h"
 #include "hci/math/harmonic.h"
 
 #define TOLD          0.48 /* orders for each sample of a turn, as diagnose looks for them */
