@@ -11,6 +11,18 @@
 #define LEAST_ORDER   12.0 /* electrical, that three phases make first but for 6 */
 #define SLOT_MULTIPLE 2.0  /* of the order of slots and poles: its first harmonic */
 
+double cli_tune_order_of_slots(const cli_tuning *t)
+{
+    const long slots = lround(t->declared.slots), poles = 2L * t->declared.model.pole_pairs;
+    long a = slots, b = poles;
+    if (!(t->declared.slots > 0.0) || slots < 1) return 0.0;
+    while (b > 0) {
+        const long rest = a % b;
+        a = b, b = rest;
+    }
+    return 2.0 * (double)(slots / a);
+}
+
 cli_tune_cover cli_tune_cover_of(const hci_run *r)
 {
     cli_tune_cover x = {0.0, 0.0, 0.0};

@@ -23,18 +23,6 @@ bool cli_tune_is_blocked(const cli_tuning *t)
            t->tells_no_order;
 }
 
-double cli_tune_order_of_slots(const cli_tuning *t)
-{
-    const long slots = lround(t->declared.slots), poles = 2L * t->declared.model.pole_pairs;
-    long a = slots, b = poles;
-    if (!(t->declared.slots > 0.0) || slots < 1) return 0.0;
-    while (b > 0) {
-        const long rest = a % b;
-        a = b, b = rest;
-    }
-    return 2.0 * (double)(slots / a);
-}
-
 /* ---- what is read ---- */
 
 static hci_status init_machine(cli_tuning *t, hci_note *note)
