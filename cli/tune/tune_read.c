@@ -7,6 +7,7 @@
 
 #include "cli/terminal/progress.h"
 #include "cli/tune/tune_commands.h"
+#include "cli/tune/tune_cover.h"
 #include "cli/tune/tune_options.h"
 #include "cli/tune/tune_read.h"
 #include "hci/host/currents/target.h"
@@ -19,19 +20,7 @@
 bool cli_tune_is_blocked(const cli_tuning *t)
 {
     return t->has_slip || t->has_misfit || t->has_unsteady || t->has_no_angle || t->has_alias ||
-           t->has_standstill || t->inertia_share > 0.0;
-}
-
-double cli_tune_order_of_slots(const cli_tuning *t)
-{
-    const long slots = lround(t->declared.slots), poles = 2L * t->declared.model.pole_pairs;
-    long a = slots, b = poles;
-    if (!(t->declared.slots > 0.0) || slots < 1) return 0.0;
-    while (b > 0) {
-        const long rest = a % b;
-        a = b, b = rest;
-    }
-    return 2.0 * (double)(slots / a);
+           t->has_standstill || t->inertia_share > 0.0 || t->tells_no_order;
 }
 
 /* ---- what is read ---- */
@@ -102,19 +91,30 @@ const char *cli_tune_name_of(const cli_tuning *t, size_t k)
     return t->arguments->given[TUNE_RUNS] ? t->runs.run[k].name : t->arguments->word[k];
 }
 
-/* "log.csv: 9000 samples, 12.3 s, torque as measured; currents up to 3.2 A" */
+/* ", 0.52 turns, 386 samples a turn, which tell orders up to 16.8": of the electrical turn. */
+static void cover_words(const hci_run *r, char *text, size_t size)
+{
+    const cli_tune_cover x = cli_tune_cover_of(r);
+    text[0] = '\0';
+    if (!(x.samples_a_turn > 0.0)) return;
+    snprintf(text, size, ", %.3g turns, %.3g samples a turn, which tell orders up to %.3g", x.turns,
+             x.samples_a_turn, x.highest_order);
+}
+
+/* "log.csv: 9000 samples, 12.3 s, 10 turns, ...; torque as measured; currents up to 3.2 A" */
 static void say_run(cli_tuning *t, size_t k)
 {
     const hci_run *r = &t->runs.run[k];
     double most_A = 0.0;
-    char time[48] = "", currents[48] = "no current";
+    char time[48] = "", cover[120], currents[48] = "no current";
     for (size_t n = 0; n < 3 * r->count; ++n)
         most_A = fmax(most_A, fabs(r->i_A[n]));
     if (r->time_s && r->count > 1)
         snprintf(time, sizeof time, ", %.4g s", r->time_s[r->count - 1] - r->time_s[0]);
     if (most_A > 0.0) snprintf(currents, sizeof currents, "phase currents up to %.3g A", most_A);
-    hci_tuning_say(&t->tuning, HCI_TUNING_READ, "%s: %zu samples%s; %s; %s%s", cli_tune_name_of(t, k),
-                   r->count, time, source_words(r), currents, r->v_V ? "; voltages" : "");
+    cover_words(r, cover, sizeof cover);
+    hci_tuning_say(&t->tuning, HCI_TUNING_READ, "%s: %zu samples%s%s; %s; %s%s", cli_tune_name_of(t, k),
+                   r->count, time, cover, source_words(r), currents, r->v_V ? "; voltages" : "");
 }
 
 static void release_inputs(cli_tuning *t)
@@ -137,7 +137,9 @@ hci_status cli_tune_read_inputs(cli_tuning *t, hci_note *note)
     t->reading.run.holding = a->given[TUNE_HOLDING];
     t->reading.run.inertia_kgm2 = t->declared.inertia_kgm2;
     t->reading.run.torque_constant_Nm_per_A = hci_machine_torque_constant(&t->declared);
-    return hci_runs_read(t->list, &(hci_runs_options){t->reading.run, cli_progress, NULL}, &t->runs, note);
+    status = hci_runs_read(t->list, &(hci_runs_options){t->reading.run, cli_progress, NULL}, &t->runs, note);
+    if (!status) cli_tune_cover_set(t);
+    return status;
 }
 
 static const hci_note *remark_of(const void *runs, size_t k)

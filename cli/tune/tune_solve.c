@@ -5,6 +5,7 @@
 
 #include "cli/terminal/progress.h"
 #include "cli/tune/tune_commands.h"
+#include "cli/tune/tune_cover.h"
 #include "cli/tune/tune_options.h"
 #include "cli/tune/tune_waveforms.h"
 #include "hci/host/base/number.h"
@@ -183,6 +184,16 @@ static hci_status open_torque(cli_tuning *t, hci_note *note)
     return status;
 }
 
+/* A bound on the ripple is one of orders that were looked at. */
+static void leave_bound_out(hci_expected_ripple *e)
+{
+    if (e->state != HCI_RIPPLE_KNOWN) return;
+    e->state = HCI_RIPPLE_UNTOLD;
+    e->peak_to_peak_Nm = e->T_ripple_percent = e->middle_percent = e->error_peak_to_peak_Nm = NAN;
+    e->worst_order = e->worst_order_Nm = e->outside_share = e->outside_A = NAN;
+    e->recordings = 0;
+}
+
 hci_status cli_tune_solve(cli_tuning *t, hci_note *note)
 {
     char machine[CLI_TUNE_PATH], target[CLI_TUNE_PATH], folder[CLI_TUNE_PATH], rms[32];
@@ -205,6 +216,7 @@ hci_status cli_tune_solve(cli_tuning *t, hci_note *note)
     cli_tune_note_line(t, &c, true);
     t->tuning.solved = hci_solve(&t->corrected, &options, &t->solution, note);
     cli_progress_end();
+    if (cli_tune_is_coarse(t)) leave_bound_out(&t->solution.expected);
     if (t->tuning.solved > HCI_NOT_REACHED) return t->tuning.solved;
     t->is_solved = true;
     t->tuning.solution = &t->solution;

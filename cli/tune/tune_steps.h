@@ -50,10 +50,13 @@ typedef struct {
     bool has_standstill;   /* the angle changes in none of the recordings */
     double once_a_turn_Nm; /* cogging torque of once a turn that a load on the shaft may make; 0: none */
     bool has_doubt;        /* check does not understand something else */
-    bool has_alias;  /* samples lie too far apart for the order of slots and poles, which shows as another one
-                      */
-    bool has_offset; /* recordings are read with an angle offset that was found here */
-    char offset[32]; /* in degrees, as --angle-offset takes it */
+    bool has_alias; /* samples lie too far apart for the order of slots and poles, which shows as another one
+                     */
+    bool tells_no_order;  /* not even an electrical turn is covered */
+    double turns;         /* mechanical, that a recording over time covers; 0: none does */
+    double highest_order; /* electrical, that the samples of their torque tell; 0: not told */
+    bool has_offset;      /* recordings are read with an angle offset that was found here */
+    char offset[32];      /* in degrees, as --angle-offset takes it */
     double emf_to_sheet;  /* has_emf: the measured back-EMF to that of the data sheet */
     double cogging_reach; /* order up to which a holding test was looked at; 0: none */
     hci_waveform cogging; /* of a holding test; empty: none */

@@ -6,6 +6,7 @@
 
 #include "cli/terminal/say.h"
 #include "cli/terminal/text.h"
+#include "cli/tune/tune_cover.h"
 #include "cli/tune/tune_options.h"
 #include "cli/tune/tune_waveforms.h"
 
@@ -63,6 +64,20 @@ static void say_limits(cli_tuning *t)
                        "was taken. Check Kv and what it is of, the pole pairs, and that nothing drove a "
                        "current.",
                        t->emf_to_sheet);
+    if (cli_tune_is_short(t))
+        hci_tuning_say(
+            &t->tuning, HCI_TUNING_UNKNOWN,
+            "What repeats with the mechanical turn: %.2g of a turn is covered, and orders closer to "
+            "each other than one over that are not told apart. Record at least one whole turn, "
+            "better several.",
+            t->turns);
+    if (cli_tune_is_coarse(t) && !(reach > 0.0))
+        hci_tuning_say(
+            &t->tuning, HCI_TUNING_UNKNOWN,
+            "Ripple above the electrical order %.3g: no recording has more samples in a turn (rows that "
+            "repeat a torque that is held count once), so it was not looked at and no bound is "
+            "told. Turn more slowly, or log the torque more often.",
+            t->highest_order);
     if (misses_slots(t))
         hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
                        "The cogging torque of slots and poles, order %.5g: orders above %.5g were not looked "
@@ -539,6 +554,14 @@ static void add_to_heading(cli_tuning *t)
     if (reach_of_slopes(t) > 0.0)
         snprintf(heading + strlen(heading), size - strlen(heading),
                  "; these recordings do not show cogging torque above order %.3g", reach_of_slopes(t));
+    if (cli_tune_is_short(t) && t->is_solved)
+        snprintf(heading + strlen(heading), size - strlen(heading),
+                 "; the logs cover %.2g of a turn, and at least a whole one is needed to tell orders apart",
+                 t->turns);
+    if (cli_tune_is_coarse(t) && t->is_solved && !(reach_of_slopes(t) > 0.0))
+        snprintf(heading + strlen(heading), size - strlen(heading),
+                 "; orders above %.3g were not looked at, since the samples lie too far apart",
+                 t->highest_order);
     if (hangs_on_lag(t))
         snprintf(heading + strlen(heading), size - strlen(heading),
                  "; unless the torque sensor reads late, which one speed does not tell");
@@ -583,6 +606,9 @@ static const char *why_not_solved(const cli_tuning *t)
            : cli_tune_is_typed(t)
                ? "The torque in the log is one number in every row, typed and not measured, and tells "
                  "the mean alone, so nothing was solved"
+           : t->tells_no_order
+               ? "The logs cover not even one electrical turn, which tells no order: at least one whole "
+                 "mechanical turn is needed, better several, so nothing was solved"
            : t->needs_inertia ? "The inertia may answer what the current does not, so nothing was solved"
                               : "The logs tell neither cogging torque nor back-EMF, so nothing was solved";
 }
@@ -642,7 +668,8 @@ void cli_tune_conclude(cli_tuning *t)
     say_unknown(t);
     if (hangs_on_lag(t)) say_lag(t);
     say_next(t);
-    r->good = t->is_emitted && !t->diagnosed && !r->solved && !t->has_doubt && !is_of_no_use(t);
+    r->good = t->is_emitted && !t->diagnosed && !r->solved && !t->has_doubt && !is_of_no_use(t) &&
+              !cli_tune_is_short(t);
     snprintf(r->verdict, sizeof r->verdict, "%s", verdict_of(t));
     if (t->is_solved)
         set_heading(t);

@@ -22,9 +22,9 @@ const char *hci_ripple_state_words(hci_ripple_state state)
         "again",
         "Ripple not known: the currents lie far outside of what one or two recordings show; record such a "
         "run",
-        "Ripple not known: the recordings tell of no order of the torque; record ones with more samples in "
-        "an "
-        "electrical turn",
+        "Ripple not known: the recordings tell of no order of the torque, or of the lowest alone; record "
+        "ones "
+        "with more samples in an electrical turn",
         "Ripple not known: the diagnosis of this machine has not explained its recordings"};
     return WORDS[state];
 }

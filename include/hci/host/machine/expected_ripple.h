@@ -14,8 +14,8 @@ typedef enum {
     HCI_RIPPLE_NO_RECORDINGS, /* the machine has no uncertainty.csv */
     HCI_RIPPLE_OTHER_EFFECTS, /* effects.csv is not the one that uncertainty.csv was found for */
     HCI_RIPPLE_TOO_FAR, /* parts of one or two recordings tell nothing of currents so far outside of them */
-    HCI_RIPPLE_UNTOLD,  /* the recordings tell of no order of the torque, such as ones with a few samples in a
-                         * turn */
+    HCI_RIPPLE_UNTOLD,  /* the recordings tell of no order of the torque, or of the lowest alone, such as ones
+                         * with a few samples in a turn */
     HCI_RIPPLE_UNEXPLAINED /* the diagnosis that the machine comes from has not explained its recordings */
 } hci_ripple_state;
 

@@ -1,0 +1,69 @@
+#include "cli/tune/tune_cover.h"
+
+#include <math.h>
+
+#include "hci/math/harmonic.h"
+
+#define TOLD          0.48 /* orders for each sample of a turn, as diagnose looks for them */
+#define MOST_ORDER    96.0 /* electrical, likewise */
+#define LEAST_ARC     0.02 /* electrical turns: a shaft that is held moves as much */
+#define WHOLE         0.95 /* of a turn: the last sample stands before the first one */
+#define LEAST_ORDER   12.0 /* electrical, that three phases make first but for 6 */
+#define SLOT_MULTIPLE 2.0  /* of the order of slots and poles: its first harmonic */
+
+double cli_tune_order_of_slots(const cli_tuning *t)
+{
+    const long slots = lround(t->declared.slots), poles = 2L * t->declared.model.pole_pairs;
+    long a = slots, b = poles;
+    if (!(t->declared.slots > 0.0) || slots < 1) return 0.0;
+    while (b > 0) {
+        const long rest = a % b;
+        a = b, b = rest;
+    }
+    return 2.0 * (double)(slots / a);
+}
+
+cli_tune_cover cli_tune_cover_of(const hci_run *r)
+{
+    cli_tune_cover x = {0.0, 0.0, 0.0};
+    if (!r->theta_m_rad || r->count < 2) return x;
+    double least = r->theta_m_rad[0], most = least, path = 0.0;
+    for (size_t k = 1; k < r->count; ++k) {
+        least = fmin(least, r->theta_m_rad[k]);
+        most = fmax(most, r->theta_m_rad[k]);
+        path += fabs(r->theta_m_rad[k] - r->theta_m_rad[k - 1]) / (2.0 * HCI_PI);
+    }
+    x.turns = (most - least) / (2.0 * HCI_PI);
+    if (x.turns * r->pole_pairs < LEAST_ARC || r->torque_source == HCI_TORQUE_NONE) return x;
+    x.samples_a_turn = (double)r->count / path;
+    x.highest_order = fmin(TOLD * x.samples_a_turn / r->pole_pairs, MOST_ORDER);
+    return x;
+}
+
+void cli_tune_cover_set(cli_tuning *t)
+{
+    double turns = 0.0, order = 0.0;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        const bool tells = r->time_s && (r->torque_source != HCI_TORQUE_NONE || r->v_V);
+        const cli_tune_cover x = cli_tune_cover_of(r);
+        if (!tells) continue;
+        turns = fmax(turns, x.turns);
+        order = fmax(order, x.highest_order);
+    }
+    t->turns = turns;
+    t->highest_order = order;
+    t->tells_no_order =
+        turns * t->declared.model.pole_pairs >= LEAST_ARC && turns * t->declared.model.pole_pairs < WHOLE;
+}
+
+bool cli_tune_is_short(const cli_tuning *t)
+{
+    return t->turns * t->declared.model.pole_pairs >= LEAST_ARC && t->turns < WHOLE;
+}
+
+bool cli_tune_is_coarse(const cli_tuning *t)
+{
+    const double wanted = fmax(LEAST_ORDER, SLOT_MULTIPLE * cli_tune_order_of_slots(t));
+    return t->highest_order > 0.0 && t->highest_order < wanted;
+}

@@ -1,0 +1,46 @@
+#!/bin/sh
+# What tune says of recordings that show a part of the turn, or too few samples of it.
+#   cli_tune_cover.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+. "$1/tests/support/common.sh"
+cd "$work" || exit 1
+
+# NAME TURNS: i_q answers cogging torque of orders 2 and 12 of seven pole pairs, at 12 rpm, over so much of the turn
+crawl() {
+    awk -v turns="$2" 'BEGIN { srand(3); print "time_s,speed_rpm,theta_m_rad,id_A,iq_A"; turn = 6.283185307179586; count = int(500 * turns)
+        for (k = 0; k < count; ++k) { x = 0.2 + turn * k / 500; printf "%.3f,12,%.6f,%.5f,%.5f\n", 0.01 * k, x, 0.002 * (rand() - 0.5),
+            0.05 + 0.1 * sin(14 * x) + 0.3 * sin(84 * x + 0.4) + 0.01 * (rand() - 0.5) } }' >"$1"
+}
+crawl tenth.csv 0.11
+run 1 tune tenth.csv --pole-pairs 7 --kv 120 --inertia 1e-6 -o tenth
+says '^not enough in the logs: The logs cover not even one electrical turn' 'tenth.csv: 55 samples, 0.54 s, 0.108 turns'
+check "a table in tenth" [ ! -e tenth/table ]
+crawl half.csv 0.52
+run 1 tune half.csv --pole-pairs 7 --kv 120 --inertia 1e-6 -o half
+says '^tuned, with something left open: .*; the logs cover 0.52 of a turn'
+check "how much to record" grep -q "Record at least one whole turn, better several" half/summary.json
+
+# NAME RPM AMPERES SAMPLES HELD: ten turns of four pole pairs, so many samples a turn; cogging torque of orders 6 and 12, a torque that is refreshed
+# at each HELD-th row
+dyno() {
+    awk -v rpm="$2" -v amp="$3" -v samples="$4" -v held="$5" 'BEGIN { srand(rpm + amp + 500); print "time_s,theta_m_rad,speed_rpm,ia_A,ib_A,ic_A,torque_Nm"
+        turn = 6.283185307179586; for (k = 0; k < 10 * samples; ++k) { x = turn * (k / samples + 0.0137); e = 4 * x
+            if (k % held == 0) torque = 0.75 * amp + 0.12 * sin(6 * e + 1) + 0.03 * sin(12 * e + 2) - 0.1 + 0.01 * (rand() - 0.5)
+            printf "%.6f,%.6f,%g,%.5f,%.5f,%.5f,%.5f\n", k / samples * 60 / rpm, x, rpm, amp * sin(e) + 0.01 * (rand() - 0.5),
+                amp * sin(e - turn / 3) + 0.01 * (rand() - 0.5), amp * sin(e + turn / 3) + 0.01 * (rand() - 0.5), torque } }' >"$1"
+}
+# FOLDER SAMPLES HELD
+bench() {
+    dyno zero.csv 60 0 "$2" "$3"
+    dyno half_load.csv 240 5 "$2" "$3"
+    dyno load.csv 60 10 "$2" "$3"
+    dyno fast.csv 240 10 "$2" "$3"
+    run 0 tune zero.csv half_load.csv load.csv fast.csv --pole-pairs 4 --flux 0.125 --slots 24 --rated-current 11 -o "$1"
+}
+bench coarse 86.5 1
+says 'orders above 10.4 were not looked at' 'Ripple above the electrical order 10.4: no recording has'
+check "a bound of what was not looked at" [ "$(grep -c '(95 %)' "$work/stdout")" -eq 0 ]
+bench held 692 8
+says 'orders above 10.4 were not looked at'
+check "the readings in a turn" grep -q '865 samples, .*, 86.[4-6] samples a turn' held/summary.json
+check "a bound of what a held torque does not show" [ "$(grep -c '(95 %)' "$work/stdout")" -eq 0 ]
+finish
