@@ -56,6 +56,16 @@ slow_turn weight.csv 0.2
 run 0 tune weight.csv --pole-pairs 7 --kv 120 --rated-current 3 -o weight
 says '^tuned: .*once a turn may be of what hangs on the shaft' 'Whether the 0\.0[0-9]* N·m once a mechanical turn'
 
+# ---- a column in another unit than the one that it is read in
+
+unit_is() { # EXPRESSION NAME HEADER: of the columns; of --column that is said; of the file
+    awk -F, -v OFS=, "NR > 1 { $1 } 1" slow.csv | sed "1s/.*/$3/" >unit.csv
+    run 1 tune unit.csv --pole-pairs 7 --kv 120 -o "unit_$2"
+    check "not said: --column $2" grep -q "say --column $2=COLUMN" "unit_$2/summary.json"
+}
+unit_is '$1 *= 1e6' time_us time_s,theta_m_rad,speed_rad_per_s,id_A,iq_A
+unit_is '$3 *= 1' speed_rad_per_s time_s,theta_m_rad,speed_rpm,id_A,iq_A
+
 # ---- another machine turns the shaft of open terminals, and the torque is typed as 0
 
 awk 'BEGIN { srand(3); print "time_s,theta_m_rad,speed_rad_per_s,va_V,vb_V,vc_V,ia_A,ib_A,ic_A,torque_Nm"; turn = 6.283185307179586
