@@ -50,7 +50,8 @@ static double sum_by_value(const hci_effect_term *term, const hci_sample *truth)
     return 1.0;
 }
 
-#define EXPECTED 0.05 /* of the largest current; what stands still while the rotor turns may all be theirs */
+#define EXPECTED 0.05 /* of the largest current; what stands still while the rotor turns may all be theirs   \
+                       */
 
 static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
 {
@@ -64,11 +65,16 @@ static void propose_alike(const hci_machine *machine, double slots, const hci_ef
     hci_effect_propose(to, 0, 2, 0.0, 1.0, 0.0);
 }
 
+static const hci_effect_correction CORRECTION[] = {{"subtract ", 0.0, " A from i_a", NULL},
+                                                   {"subtract ", 0.0, " A from i_b", NULL},
+                                                   {"subtract ", 0.0, " A from i_c", NULL}};
+
 const hci_effect_type hci_effect_current_offset = {
     .name = "current_offset",
     .equation = "i_s,read = i_s + o_s",
     .signature = "independent of the load; order 1 and its sidebands with the back-EMF",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .correction = CORRECTION,
     .is_small = true,
     .told_by = "a torque transducer and currents of their own",
     .sum_by_value = sum_by_value,
