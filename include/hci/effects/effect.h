@@ -114,6 +114,14 @@ typedef struct {
     size_t count;             /* entries of effect */
 } hci_effects;
 
+/* What a drive does to its readings in answer to a value, in words: before, plus + value, after; where
+ * `behind` is given, the order of the term and it follow. before NULL: nothing. */
+typedef struct {
+    const char *before;
+    double plus;
+    const char *after, *behind;
+} hci_effect_correction;
+
 /* ---- types ---- */
 
 /* One link in the chain from the true value of a channel to hci_sensor: called once a step, with eight
@@ -242,12 +250,13 @@ enum {
 /* What is known of an effect: all of it, so that a new one is one file and one line in the registry. A member
  * that does not concern it is 0 or NULL. */
 struct hci_effect_type {
-    const char *name;                      /* as in effects.csv */
-    const char *equation;                  /* in words and letters, for people */
-    const char *signature;                 /* how it shows in a residual */
-    const hci_effect_parameter *parameter; /* the kinds of numbers that it has */
-    size_t parameter_count;                /* entries of parameter */
-    unsigned needs;                        /* of HCI_EFFECT_NEEDS_TIME … */
+    const char *name;                        /* as in effects.csv */
+    const char *equation;                    /* in words and letters, for people */
+    const hci_effect_correction *correction; /* of each parameter; NULL: no sensor of a drive */
+    const char *signature;                   /* how it shows in a residual */
+    const hci_effect_parameter *parameter;   /* the kinds of numbers that it has */
+    size_t parameter_count;                  /* entries of parameter */
+    unsigned needs;                          /* of HCI_EFFECT_NEEDS_TIME … */
     const char *without;   /* what a prediction says where a run lacks what the effect needs */
     const char *told_by;   /* a run with this tells it from what looks the same; NULL: any other run */
     bool in_machine;       /* `torque` acts in the air gap, else only between it and the reading */

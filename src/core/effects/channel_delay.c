@@ -143,11 +143,17 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
     hci_effect_propose(to, ANGLE, 1, 0.0, 2.0, EXPECTED_S);
 }
 
+static const hci_effect_correction CORRECTION[] = {
+    {"take for the currents (read late) the angle of ", 0.0, " s before", NULL},
+    {"add to the angle (read late) the speed times ", 0.0, " s", NULL},
+    {NULL, 0.0, NULL, NULL}};
+
 const hci_effect_type hci_effect_channel_delay = {
     .name = "channel_delay",
     .equation = "x_read(t) = x(t − τ)",
     .signature = "a phase in proportion to order and speed, unlike an offset",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .correction = CORRECTION,
     .needs = HCI_EFFECT_NEEDS_SPEED | HCI_EFFECT_NEEDS_RATE,
     .without = "without a speed friction and delays are left out",
     .told_by = "another speed, at least four times as fast",

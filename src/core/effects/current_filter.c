@@ -121,11 +121,15 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
     if (survey->timed && survey->speeds > 1) hci_effect_propose(to, TIME_CONSTANT, 1, 0.0, 2.0, EXPECTED_S);
 }
 
+static const hci_effect_correction CORRECTION[] = {
+    {"take for the currents (of a low pass) the angle of ", 0.0, " s before", NULL}};
+
 const hci_effect_type hci_effect_current_filter = {
     .name = "current_filter",
     .equation = "τ di_read/dt + i_read = i",
     .signature = "a phase in proportion to order and speed like a delay, and smaller currents at high speed",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .correction = CORRECTION,
     .needs = HCI_EFFECT_NEEDS_SPEED | HCI_EFFECT_NEEDS_RATE,
     .without = "without a speed friction and delays are left out",
     .told_by = "a speed at which the delay is an eighth of an electrical period or more",

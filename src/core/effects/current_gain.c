@@ -78,11 +78,15 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
     hci_effect_propose_phases(to, EXPECTED);
 }
 
+static const hci_effect_correction CORRECTION[] = {
+    {"divide i_a by ", 1.0, "", NULL}, {"divide i_b by ", 1.0, "", NULL}, {"divide i_c by ", 1.0, "", NULL}};
+
 const hci_effect_type hci_effect_current_gain = {
     .name = "current_gain",
     .equation = "i_s,read = (1 + g_s) i_s",
     .signature = "grows with the current; order 2 and the mean",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .correction = CORRECTION,
     .is_small = true,
     .when_equal = &hci_effect_back_emf,
     .sum_by_value = sum_by_value,

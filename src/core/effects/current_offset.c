@@ -66,11 +66,16 @@ static void propose_alike(const hci_machine *machine, double slots, const hci_ef
     hci_effect_propose(to, 0, 2, 0.0, 1.0, 0.0);
 }
 
+static const hci_effect_correction CORRECTION[] = {{"subtract ", 0.0, " A from i_a", NULL},
+                                                   {"subtract ", 0.0, " A from i_b", NULL},
+                                                   {"subtract ", 0.0, " A from i_c", NULL}};
+
 const hci_effect_type hci_effect_current_offset = {
     .name = "current_offset",
     .equation = "i_s,read = i_s + o_s",
     .signature = "independent of the load; order 1 and its sidebands with the back-EMF",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .correction = CORRECTION,
     .is_small = true,
     .told_by = "a torque transducer and currents of their own",
     .sum_by_value = sum_by_value,

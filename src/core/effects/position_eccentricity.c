@@ -65,11 +65,16 @@ static void propose_alike(const hci_machine *machine, double slots, const hci_ef
     hci_effect_propose(to, SINE, 2, 1.0, 1.0, EXPECTED_RAD);
 }
 
+static const hci_effect_correction CORRECTION[] = {
+    {"subtract from the mechanical angle ", 0.0, " rad sin(", " theta_m)"},
+    {"subtract from the mechanical angle ", 0.0, " rad cos(", " theta_m)"}};
+
 const hci_effect_type hci_effect_position_eccentricity = {
     .name = "position_eccentricity",
     .equation = "θ_m,read = θ_m + Σ S sin kθ_m + C cos kθ_m",
     .signature = "mechanical orders 1 and 2 around every order, as ∂T/∂θ modulated",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .correction = CORRECTION,
     .is_small = true,
     .propose = propose,
     .propose_alike = propose_alike,

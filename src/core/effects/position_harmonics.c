@@ -62,11 +62,16 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
         hci_effect_propose(to, SINE, 2, ORDER[k], 3.0, EXPECTED_RAD);
 }
 
+static const hci_effect_correction CORRECTION[] = {
+    {"subtract from the electrical angle ", 0.0, " rad sin(", " theta)"},
+    {"subtract from the electrical angle ", 0.0, " rad cos(", " theta)"}};
+
 const hci_effect_type hci_effect_position_harmonics = {
     .name = "position_harmonics",
     .equation = "θ_read = θ + Σ S sin nθ + C cos nθ",
     .signature = "electrical orders 1, 2 and 4 around every order, as ∂T/∂θ modulated",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .correction = CORRECTION,
     .is_small = true,
     .propose = propose,
     .sense = sense,

@@ -48,11 +48,15 @@ static void propose_alike(const hci_machine *machine, double slots, const hci_ef
     hci_effect_propose(to, ANGLE, 1, 0.0, 1.0, EXPECTED_RAD);
 }
 
+static const hci_effect_correction CORRECTION[] = {
+    {"subtract ", 0.0, " rad from the electrical angle", NULL}};
+
 const hci_effect_type hci_effect_position_offset = {
     .name = "position_offset",
     .equation = "θ_read = θ + δ",
     .signature = "∂T/∂θ times a constant, at every order",
     HCI_EFFECT_PARAMETERS(PARAMETER),
+    .correction = CORRECTION,
     .is_angle_zero = true,
     .propose = propose,
     .propose_alike = propose_alike,
