@@ -40,6 +40,11 @@ static bool tells_zero(const cli_tuning *t, const hci_run *r)
            (t->has_load && r->torque_source == HCI_TORQUE_MEASURED && has_currents);
 }
 
+double cli_tune_made_Nm(const cli_tuning *t)
+{
+    return t->solution.order_count > 0 ? t->solution.order[0].torque_Nm.cosine : t->mean_Nm;
+}
+
 bool cli_tune_knows_zero(const cli_tuning *t)
 {
     bool has_angle = false, knows = false;

@@ -487,11 +487,6 @@ static void set_heading(cli_tuning *t)
         snprintf(r->heading, sizeof r->heading, "Nothing was found that would make a ripple");
 }
 
-double cli_tune_made_Nm(const cli_tuning *t)
-{
-    return t->solution.order_count > 0 ? t->solution.order[0].torque_Nm.cosine : t->mean_Nm;
-}
-
 /* Of the wanted mean torque, that may be missing and not be spoken of. */
 #define NEAR_WANTED 0.005
 

@@ -10,6 +10,7 @@
 #define SEED_SHARE 0.1
 #define LEAST_GAIN 2.0  /* least fall of the score for one more order of an effect */
 #define LITTLE     1e-3 /* and its least share of what noise is in all samples */
+#define TIE        1e-9 /* of a fall, by which two that explain the same differ by rounding: the first is taken */
 
 enum { MOST_ORDERS = 12, MOST_POWERS = 80 }; /* that come in together; of saturation */
 
@@ -79,7 +80,7 @@ static bool take_best(selecting *g, bool first)
     for (size_t k = 0; k < n; ++k) {
         if (!is_open(g, k)) continue;
         const double gain = gain_of(g, k);
-        if (gain > most && (first || gain > least_gain(g, k))) {
+        if (gain > most + TIE * most && (first || gain > least_gain(g, k))) {
             most = gain;
             best = k;
         }
