@@ -117,9 +117,10 @@ typedef struct {
 /* What a drive does to its readings in answer to a value, in words: before, plus + value, after; where
  * `behind` is given, the order of the term and it follow. before NULL: nothing. */
 typedef struct {
-    const char *before;
-    double plus;
-    const char *after, *behind;
+    const char *before; /* words before the value; NULL: nothing is said */
+    double plus;        /* added to the value */
+    const char *after;  /* words after it */
+    const char *behind; /* words behind the order, which follows where they are given; NULL: none */
 } hci_effect_correction;
 
 /* ---- types ---- */

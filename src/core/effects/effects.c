@@ -248,8 +248,7 @@ static void read_torques(const hci_effects *effects, hci_effect_torque *sum, dou
 double hci_effects_predict(const hci_machine *machine, const hci_effects *effects, const hci_sample *reading,
                            double *by_value)
 {
-    hci_torque_parts unknown;
-    unknown.theta_rad = NAN;
+    hci_torque_parts unknown = {.theta_rad = NAN};
     return hci_effects_predict_again(machine, effects, reading, &unknown, by_value);
 }
 

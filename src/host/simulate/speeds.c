@@ -308,7 +308,13 @@ static hci_status check_torque(const hci_speeds_request *q, hci_note *note)
 static hci_status prepare(grid *g)
 {
     const hci_speeds_request *q = g->request;
-    const hci_loop_task task = {&g->machine, q->drive, q->levels, q->level_count, 0.0, 0.0};
+    const hci_loop_task task = {&g->machine,
+                                q->drive,
+                                q->levels,
+                                q->level_count,
+                                0.0,
+                                0.0,
+                                q->speed_count > 0 && q->speeds_rad_per_s[0] < 0.0};
     hci_status status = check_torque(q, g->note);
     if (!status) status = hci_drive_fit(q->drive, q->machine, &g->machine, g->note);
     for (size_t k = 0; k < q->speed_count && !status; ++k)

@@ -46,25 +46,34 @@ static void check_currents(double a_A, double b_A, double c_A)
     TEST_ASSERT_EQUAL_DOUBLE(c_A, bounds.current_A[2]);
 }
 
+static void check_declared(bool a, bool b, bool c)
+{
+    TEST_ASSERT_EQUAL(a, bounds.current_is_declared[0]);
+    TEST_ASSERT_EQUAL(b, bounds.current_is_declared[1]);
+    TEST_ASSERT_EQUAL(c, bounds.current_is_declared[2]);
+}
+
 /* That of a phase before that of all, and that before the machine's. */
 static void test_which_current_holds(void)
 {
     check_currents(HUGE_VAL, HUGE_VAL, HUGE_VAL);
-    TEST_ASSERT_FALSE(bounds.current_is_declared);
+    check_declared(false, false, false);
     machine.max_current_A = 20.0;
     check_currents(20.0, 20.0, 20.0);
-    TEST_ASSERT_TRUE(bounds.current_is_declared);
+    check_declared(true, true, true);
     options.limits.current_A[1] = 7.0;
     check_currents(20.0, 7.0, 20.0);
+    check_declared(true, false, true);
     options.limits.is_open[2] = true;
     check_currents(20.0, 7.0, 0.0);
+    check_declared(true, false, false);
     options.limit_current_A = 30.0;
     check_currents(30.0, 7.0, 0.0);
-    TEST_ASSERT_FALSE(bounds.current_is_declared);
+    check_declared(false, false, false);
     options.limit_current_A = 0.0;
     options.limits.ignore_ratings = true;
     check_currents(HUGE_VAL, 7.0, 0.0);
-    TEST_ASSERT_FALSE(bounds.current_is_declared);
+    check_declared(false, false, false);
 }
 
 static void test_rms_of_the_phases(void)

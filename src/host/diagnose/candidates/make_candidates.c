@@ -20,8 +20,6 @@ enum {
 #define SIMILAR 0.15 /* speeds that differ by less, as a share, are the same */
 #define AROUND  1.2  /* standard deviations above a mean speed: at 0.85 of a ramp from 0 */
 
-#define LEAST_PERIOD 0.02 /* electrical, that a shaft turns by which is not held */
-#define WHOLE_TURN   0.95 /* mechanical: the last sample stands before the first one */
 
 #define LITTLE 0.1 /* current beside the largest, that is next to none */
 
@@ -154,14 +152,6 @@ static bool warms(const hci_candidates_source *s)
     return hottest_C - coldest_C > LEAST_WARMING_K;
 }
 
-/* Whether a run over time turns the shaft by less than once: orders closer than one over that are not told
- * apart, so only whole electrical ones are looked for. One that hardly moves has no order. */
-static bool is_part_of_turn(const hci_candidates_source *s, size_t run)
-{
-    const double turns = s->samples->statistics[run].turns;
-    return s->runs[run].time_s && turns * s->machine->pole_pairs > LEAST_PERIOD && turns < WHOLE_TURN;
-}
-
 static hci_effect_survey survey_of(const hci_candidates_source *s)
 {
     hci_effect_survey x = {.machine = s->machine,
@@ -175,7 +165,7 @@ static hci_effect_survey survey_of(const hci_candidates_source *s)
         x.moving = x.moving || f->mean_speed_rad_per_s != 0.0;
         ahead = ahead || (s->use[r] && f->mean_speed_rad_per_s > 0.0);
         back = back || (s->use[r] && f->mean_speed_rad_per_s < 0.0);
-        x.has_turn = x.has_turn || (s->runs[r].turn_known && !is_part_of_turn(s, r));
+        x.has_turn = x.has_turn || s->runs[r].turn_known;
         x.creeps = x.creeps || (s->use[r] && f->creeps && s->runs[r].torque_source == HCI_TORQUE_MEASURED);
         if (s->runs[r].time_s && s->runs[r].count > 0)
             x.duration_s = fmax(x.duration_s, s->runs[r].time_s[s->runs[r].count - 1] - s->runs[r].time_s[0]);

@@ -33,7 +33,8 @@ static const double WIDTHS[] = {1.0, 3.0, 10.0, 30.0, 100.0};
 #define SAME_CURRENT 0.02 /* of the largest */
 #define BLUNT                                                                                                \
     10.0 /* noise over the resolution, above which single terms say all that the recordings can tell */
-#define WHOLE_TURN 0.9 /* electrical, of a run that tells orders by its samples */
+#define TOLD       0.48 /* of the samples in a turn: of half as many orders sine and cosine look alike */
+#define WHOLE_TURN 0.9  /* electrical, of a run that tells orders by its samples */
 
 /* One choice of what to fit. */
 typedef struct {
@@ -297,7 +298,7 @@ static int highest_order(const hci_regression *e)
         const hci_binned_sample *first = e->samples->sample + x->first, *last = first + x->count - 1;
         const double span = fabs(last->reading.theta_m_rad - first->reading.theta_m_rad);
         const double turns = span * e->machine->pole_pairs / (2.0 * HCI_PI);
-        if (turns > WHOLE_TURN) order = fmin(order, 0.5 * (double)x->count / turns);
+        if (turns > WHOLE_TURN) order = fmin(order, TOLD * (double)x->count / turns);
     }
     return (int)order;
 }

@@ -360,22 +360,6 @@ static void test_without_a_known_turn_no_orders_of_the_turn(void)
     TEST_ASSERT_TRUE(is_offered("cogging", "sine", 6.0));
 }
 
-/* Half a turn does not tell order 7 from 6 or 8: whole electrical orders are all that is looked for. */
-static void test_in_half_a_turn_no_orders_of_the_turn(void)
-{
-    for (size_t r = 0; r < RUNS; ++r)
-        for (size_t k = 0; k < SAMPLES; ++k) {
-            run[r].theta_m_rad[k] *= 0.5;
-            run[r].time_s[k] *= 0.5;
-        }
-    hide(7.0, 0.02);
-    hide(6.0 * P, 0.02);
-    make();
-    TEST_ASSERT_EQUAL_UINT64(0, terms_of("mechanical_order", "", NULL));
-    TEST_ASSERT_EQUAL_UINT64(0, terms_of("position_eccentricity", "", NULL));
-    TEST_ASSERT_TRUE(is_offered("cogging", "sine", 6.0));
-}
-
 /* ---- high powers, and what is known ---- */
 
 static void test_more_is_offered_where_the_iron_saturates(void)
@@ -523,7 +507,6 @@ int main(void)
     RUN_TEST(test_known_effects_alone);
     RUN_TEST(test_orders_above_half_the_samples_are_none);
     RUN_TEST(test_without_a_known_turn_no_orders_of_the_turn);
-    RUN_TEST(test_in_half_a_turn_no_orders_of_the_turn);
     RUN_TEST(test_more_is_offered_where_the_iron_saturates);
     RUN_TEST(test_orders_of_iron_end_at_half_the_samples);
     RUN_TEST(test_the_magnetic_circuit_alone);
