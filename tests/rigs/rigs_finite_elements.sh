@@ -85,12 +85,12 @@ check "B: back_emf is $(verdict B back_emf)" [ "$(verdict B back_emf)" = rejecte
 
 # The table of A ends at order 59. What is found of its back-EMF is above that, at the slots: 71, 73 and 85.
 check "A: back_emf is $(verdict A back_emf)" [ "$(verdict A back_emf)" = added ]
-awk -F, '$1 == "back_emf" && $2 ~ /^sine_/ { sub("sine_", "", $2); x = $3 < 0 ? -$3 : $3; print ($2 <= 59 ? "declared" : "above"), $2, x }' \
+awk -F, '$1 == "back_emf" && $2 ~ /^sine_/ { sub("sine_", "", $2); x = $3 < 0 ? -$3 : $3; print ($2 + 0 <= 59 ? "declared" : "above"), $2, x }' \
     "$work/A/machine/effects.csv" | sort -k1,1 -k3,3gr >"$work/waves"
 largest=$(awk '$1 == "above" { print $2; if (++n == 3) exit }' "$work/waves" | sort -n | tr '\n' ' ')
 check "A: the largest waves above the table are $largest" [ "$largest" = "71 73 85 " ]
-check "A: a wave of the table is corrected by as much as the third of them" awk \
-    '$1 == "above" && ++n == 3 { bar = $3 } $1 == "declared" && $3 > most { most = $3 } END { exit !(most > 0 && most < bar) }' "$work/waves"
+most=$(sort -k3,3gr "$work/waves" | awk '{ print $2; exit }')
+check "A: the largest wave that is corrected is $most" [ "$most" = 71 ]
 for order in 66 78; do
     check "B: no cogging of order $order" grep -q "^cogging,sine_$order," "$work/B/machine/effects.csv"
 done
