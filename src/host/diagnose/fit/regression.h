@@ -32,7 +32,7 @@ typedef struct {
 } hci_regression;
 
 /* Work that a search may take; beyond it the best model so far is kept, and fits end after a few steps. */
-#define HCI_MOST_WORK 6e10
+#define HCI_MOST_WORK 7.5e10
 
 /* The segment of a run in use that follows `after` (NULL: the first one); NULL behind the last. */
 const hci_segment *hci_regression_next(const hci_regression *regression, const hci_segment *after);
