@@ -1,6 +1,7 @@
 #include "cli/tune/tune_words.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -523,61 +524,73 @@ static bool is_of_no_use(const cli_tuning *t)
     return before_Nm >= t->solution.tolerance_Nm && after_Nm >= before_Nm;
 }
 
-/* What a reader of the heading alone has to know. */
-static void add_to_heading(cli_tuning *t)
+static void append(cli_tuning *t, const char *format, ...) HCI_PRINTF(2, 3);
+
+/* One more thing that a reader of the heading alone has to know. */
+static void append(cli_tuning *t, const char *format, ...)
 {
     char *heading = t->tuning.heading;
-    const size_t size = sizeof t->tuning.heading;
+    const size_t used = strlen(heading);
+    va_list values;
+    va_start(values, format);
+    vsnprintf(heading + used, sizeof t->tuning.heading - used, format, values);
+    va_end(values);
+}
+
+/* What the table needs of the drive, and does not do. */
+static void append_of_table(cli_tuning *t)
+{
     if (t->is_solved && *t->solution.corrections)
-        snprintf(heading + strlen(heading), size - strlen(heading),
-                 "; this once the drive's sensors, where they are those of the logs, are corrected: %s",
-                 t->solution.corrections);
+        append(t, "; this once the drive's sensors, where they are those of the logs, are corrected: %s",
+               t->solution.corrections);
     if (misses_torque(t))
-        snprintf(heading + strlen(heading), size - strlen(heading),
-                 "; the table makes %.4g N·m on average, and not the %.4g N·m that were wanted",
-                 cli_tune_made_Nm(t), t->mean_Nm);
+        append(t, "; the table makes %.4g N·m on average, and not the %.4g N·m that were wanted",
+               cli_tune_made_Nm(t), t->mean_Nm);
     if (is_far_beyond(t))
-        snprintf(heading + strlen(heading), size - strlen(heading),
-                 "; its peak current, %.3g A, is %.2g times the largest recorded one, %.3g A: are the rated "
-                 "current and the torque in A and N·m?",
-                 t->solution.peak_phase_current_A, t->solution.peak_phase_current_A / largest_recorded_A(t),
-                 largest_recorded_A(t));
+        append(t,
+               "; its peak current, %.3g A, is %.2g times the largest recorded one, %.3g A: are the rated "
+               "current and the torque in A and N·m?",
+               t->solution.peak_phase_current_A, t->solution.peak_phase_current_A / largest_recorded_A(t),
+               largest_recorded_A(t));
+}
+
+/* What the recordings do not tell of the torque. */
+static void append_of_torque(cli_tuning *t)
+{
     if (t->once_a_turn_Nm > 0.0)
-        snprintf(heading + strlen(heading), size - strlen(heading),
-                 "; of it %.3g N·m once a turn may be of what hangs on the shaft, and not of the motor",
-                 t->once_a_turn_Nm);
+        append(t, "; of it %.3g N·m once a turn may be of what hangs on the shaft, and not of the motor",
+               t->once_a_turn_Nm);
     if (reach_of_slopes(t) > 0.0)
-        snprintf(heading + strlen(heading), size - strlen(heading),
-                 "; these recordings do not show cogging torque above order %.3g", reach_of_slopes(t));
+        append(t, "; these recordings do not show cogging torque above order %.3g", reach_of_slopes(t));
     if (cli_tune_is_short(t) && t->is_solved)
-        snprintf(heading + strlen(heading), size - strlen(heading),
-                 "; the logs cover %.2g of a turn, and at least a whole one is needed to tell orders apart",
-                 t->turns);
+        append(t, "; the logs cover %.2g of a turn, and at least a whole one is needed to tell orders apart",
+               t->turns);
     if (cli_tune_is_coarse(t) && t->is_solved && !(reach_of_slopes(t) > 0.0))
-        snprintf(heading + strlen(heading), size - strlen(heading),
-                 "; orders above %.3g were not looked at, since the samples lie too far apart",
-                 t->highest_order);
-    if (hangs_on_lag(t))
-        snprintf(heading + strlen(heading), size - strlen(heading),
-                 "; unless the torque sensor reads late, which one speed does not tell");
+        append(t, "; orders above %.3g were not looked at, since the samples lie too far apart",
+               t->highest_order);
+    if (hangs_on_lag(t)) append(t, "; unless the torque sensor reads late, which one speed does not tell");
+}
+
+/* What they do not tell of the machine, and what of them was not used. */
+static void append_of_machine(cli_tuning *t)
+{
     if (is_uncounted(t))
-        snprintf(heading + strlen(heading), size - strlen(heading),
-                 "; that there are %d pole pairs is not in these logs", t->declared.model.pole_pairs);
+        append(t, "; that there are %d pole pairs is not in these logs", t->declared.model.pole_pairs);
     if (t->is_solved && lacks_sign(t))
-        snprintf(heading + strlen(heading), size - strlen(heading),
-                 "; the sign of i_q is not told, and with the other one it doubles");
+        append(t, "; the sign of i_q is not told, and with the other one it doubles");
     if (is_off_sheet(t))
-        snprintf(heading + strlen(heading), size - strlen(heading),
-                 "; the measured back-EMF is %.3g times that of the data sheet", t->emf_to_sheet);
-    if (t->left_out > 0)
-        snprintf(heading + strlen(heading), size - strlen(heading), "; %zu of %zu logs left out", t->left_out,
-                 t->left_out + t->kept.words);
-    if (t->has_doubt && !is_off_sheet(t))
-        snprintf(heading + strlen(heading), size - strlen(heading),
-                 "; check does not understand all that the logs say");
+        append(t, "; the measured back-EMF is %.3g times that of the data sheet", t->emf_to_sheet);
+    if (t->left_out > 0) append(t, "; %zu of %zu logs left out", t->left_out, t->left_out + t->kept.words);
+    if (t->has_doubt && !is_off_sheet(t)) append(t, "; check does not understand all that the logs say");
     if (misses_slots(t))
-        snprintf(heading + strlen(heading), size - strlen(heading),
-                 "; order %.5g, which slots and poles make, was not looked at", cli_tune_order_of_slots(t));
+        append(t, "; order %.5g, which slots and poles make, was not looked at", cli_tune_order_of_slots(t));
+}
+
+static void add_to_heading(cli_tuning *t)
+{
+    append_of_table(t);
+    append_of_torque(t);
+    append_of_machine(t);
 }
 
 /* Of logs that no currents were solved for. */
