@@ -52,9 +52,9 @@ size_t hci_system_capacity(size_t emf_count, size_t component_count);
 /* What mutual torque is made with, and at which orders it is compared. The arrays are borrowed. */
 typedef struct {
     const hci_wave *back_emf; /* waves of e(θ)/Ω, V·s/rad mechanical */
-    size_t back_emf_count;
-    const double *order; /* as hci_orders_sort leaves them */
-    size_t order_count;
+    size_t back_emf_count;    /* how many */
+    const double *order;      /* as hci_orders_sort leaves them */
+    size_t order_count;       /* how many */
 } hci_mutual_torque;
 
 /* U in compressed columns, rows ascending within a column, equal positions already summed. The pattern
