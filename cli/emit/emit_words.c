@@ -77,6 +77,21 @@ static void show_speed(const char *what, double speed_rad_per_s)
         cli_say("  %s all orders up to %.4g rpm\n", what, speed_rad_per_s * 30.0 / HCI_PI);
 }
 
+#define KNOWN_PERCENT 0.001 /* below it figures are not told apart */
+
+/* What the points of loop.csv leave open, as far as they tell. */
+static void show_response(const hci_emit_loop_result *result)
+{
+    if (!isfinite(result->response_error)) return;
+    cli_say("               known to %.2g %% between its points",
+            fmax(KNOWN_PERCENT, 100.0 * result->response_error));
+    if (isfinite(result->response_ripple_percent) && result->response_rad_per_s > 0.0)
+        cli_say("; by that compensation can be off in T_ripple by %.2g %% at %.4g rpm",
+                fmax(KNOWN_PERCENT, result->response_ripple_percent),
+                result->response_rad_per_s * 30.0 / HCI_PI);
+    cli_say("\n");
+}
+
 void cli_show_loop(const hci_emit_loop_request *r, const hci_emit_loop_result *result, const char *folder)
 {
     cli_say(CLI_GOOD "emitted" CLI_PLAIN ": %s/%s.h and %s.c\n", folder, r->name, r->name);
@@ -94,6 +109,7 @@ void cli_show_loop(const hci_emit_loop_request *r, const hci_emit_loop_result *r
     show_speed("voltage     ", result->voltage_rad_per_s);
     show_speed("sampling    ", result->sampled_rad_per_s);
     if (isfinite(result->measured_rad_per_s)) show_speed("loop.csv    ", result->measured_rad_per_s);
+    show_response(result);
     if (r->blob) cli_say("  blob         %s.bin, for hci/loop_blob.h\n", r->name);
     cli_say("  runtime      hci/loop.h and hci/table.h\n");
 }

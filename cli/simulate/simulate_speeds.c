@@ -89,6 +89,20 @@ static void show_limit(const char *what, double speed_rad_per_s)
         cli_say("  %s does for all orders up to %.4g rpm\n", what, rpm(speed_rad_per_s));
 }
 
+#define KNOWN_PERCENT 0.001 /* below it figures are not told apart */
+
+/* What the points of loop.csv leave open, as far as they tell. */
+static void show_response(const hci_speeds *s)
+{
+    if (!isfinite(s->response_error)) return;
+    cli_say("  loop.csv is known to %.2g %% between its points",
+            fmax(KNOWN_PERCENT, 100.0 * s->response_error));
+    for (size_t k = 0; k < s->count && s->torque_Nm != 0.0; ++k)
+        cli_say("%s%.2g %% at %.4g rpm", k == 0 ? "; by that compensation can be off in T_ripple by " : ", ",
+                fmax(KNOWN_PERCENT, s->row[k].response_ripple_percent), rpm(s->row[k].speed_rad_per_s));
+    cli_say("\n");
+}
+
 /* A torque that is made but for this share is made. */
 static const double MADE = 0.01;
 
@@ -189,6 +203,7 @@ static void show(const hci_speeds *s, const cli_speeds_words *w)
     show_limit("voltage ", s->voltage_rad_per_s);
     show_limit("sampling", s->sampled_rad_per_s);
     if (isfinite(s->measured_rad_per_s)) show_limit("loop.csv", s->measured_rad_per_s);
+    show_response(s);
     show_harm(s);
 }
 

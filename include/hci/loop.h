@@ -40,8 +40,9 @@ typedef struct {
     hci_loop_pair own_Vs[2];     /* what the drive's own decoupling adds at i*, by ω */
 } hci_loop_wave;
 
-/* Measured answers of a loop at one frequency: (1/G − F)/(R + jνL), F the filter of the measured current:
- * what is to be asked for on top of F i* for each volt that it lacks. */
+/* Measured answers of a loop at one frequency: 1/(C H) = (1/G − F)/(R + jνL) up to the ripple between
+ * samples, F the filter of the measured current: what is to be asked for on top of F i* for each volt that it
+ * lacks. */
 typedef struct {
     float frequency_rad_per_s; /* ascending, > 0 */
     float re[2], im[2];        /* d and q, A/V */
@@ -240,10 +241,10 @@ static inline hci_loop_pair hci_loop_through_control(const hci_loop_f32 *loop, c
     return hci_loop_times(x, re * scale, im * scale);
 }
 
-/* The measured answer at a frequency: straight between its points, from 0 at a standstill, where the integral
- * of the drive sees to it, to the first one, and as at the last one above. */
-static inline hci_loop_pair hci_loop_through_response(const hci_loop_f32 *loop, float nu_rad_per_s, int axis,
-                                                      hci_loop_pair x)
+/* 1/(C H) as it was measured, at a frequency: straight between its points, from 0 at a standstill, where the
+ * integral of the drive sees to it, to the first one, and as at the last one above. */
+static inline hci_loop_pair hci_loop_measured(const hci_loop_f32 *loop, float nu_rad_per_s, int axis,
+                                              hci_loop_pair x)
 {
     const hci_loop_response *r = loop->responses;
     const float nu = hci_loop_size(nu_rad_per_s), sign = nu_rad_per_s < 0.0f ? -1.0f : 1.0f;
@@ -261,6 +262,15 @@ static inline hci_loop_pair hci_loop_through_response(const hci_loop_f32 *loop, 
                           sign * (r[k].im[axis] + way * (r[k + 1u].im[axis] - r[k].im[axis])));
 }
 
+/* 1/C of a measured loop: its hold, which the voltage x has been through backwards, taken out again. */
+static inline hci_loop_pair hci_loop_through_response(const hci_loop_f32 *loop, const hci_loop_order *order,
+                                                      int axis, hci_loop_pair x)
+{
+    const float sinc = hci_loop_sinc(order->half);
+    x = hci_loop_times(x, sinc * order->ahead_re, -sinc * order->ahead_im);
+    return hci_loop_measured(loop, order->nu_rad_per_s, axis, x);
+}
+
 /* Reference current of one order and level with HCI_LOOP_COMPENSATION. */
 static inline void hci_loop_compensated(const hci_loop_f32 *loop, const hci_loop_order *order,
                                         const hci_loop_wave *wave, float speed_rad_per_s,
@@ -273,18 +283,11 @@ static inline void hci_loop_compensated(const hci_loop_f32 *loop, const hci_loop
                                   speed_rad_per_s, wave->voltage_Vs[a]);
     hci_loop_held(order, needed, held);
     for (a = 0; a < 2; ++a) {
-        if (loop->response_count > 0u) {
-            out[a] = hci_loop_times(wave->own_Vs[a], order->ahead_re, -order->ahead_im); /* it acts as late */
-            out[a] = hci_loop_through_response(loop, order->nu_rad_per_s, a,
-                                               hci_loop_plus(needed[a], -speed_rad_per_s, out[a]));
-            out[a] = hci_loop_plus(out[a], 1.0f,
-                                   hci_loop_times(wave->current_A[a], order->filter_re, order->filter_im));
-        } else {
-            out[a] = hci_loop_plus(hci_loop_times(held[a], order->ahead_re, order->ahead_im),
-                                   -speed_rad_per_s, wave->own_Vs[a]);
-            out[a] = hci_loop_plus(hci_loop_through_control(loop, order, a, out[a]), 1.0f,
-                                   hci_loop_sampled(loop, order, a, wave->current_A[a], needed[a]));
-        }
+        out[a] = hci_loop_plus(hci_loop_times(held[a], order->ahead_re, order->ahead_im), -speed_rad_per_s,
+                               wave->own_Vs[a]);
+        out[a] = loop->response_count > 0u ? hci_loop_through_response(loop, order, a, out[a])
+                                           : hci_loop_through_control(loop, order, a, out[a]);
+        out[a] = hci_loop_plus(out[a], 1.0f, hci_loop_sampled(loop, order, a, wave->current_A[a], needed[a]));
     }
 }
 

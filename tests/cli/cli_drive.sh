@@ -75,6 +75,29 @@ run 1 check data/machine_a --drive "$work/late_drive.csv"
 says '^not understood: the measured response' 'response +at most [0-9.]+ % off' 'remedy '
 refused check data/machine_a data/machine_a --drive $drive -o "$work/out" -- 'a machine alone'
 
+# four exact points of the loop say all of it, noise is priced
+
+cat >"$work/four.csv" <<'END'
+frequency_Hz,gain_d,phase_d_rad,gain_q,phase_q_rad
+20,0.999488,-0.063002,0.999488,-0.063002
+200,0.927479,-0.615702,0.927479,-0.615702
+700,0.563191,-1.76997,0.563191,-1.76997
+2000,0.200161,-3.51781,0.200161,-3.51781
+END
+awk -F, -v OFS=, 'NR > 1 { $2 *= 1 + 0.05 * (NR % 2 ? 1 : -1); $4 = $2 } 1' "$work/four.csv" >"$work/noisy.csv"
+for points in four noisy; do
+    sed "s/^decoupling.*/decoupling,none,,t/; \$a response,$points.csv,,t" $drive >"$work/${points}_drive.csv"
+    run 0 simulate data/machine_a --table "$work/a" --drive "$work/${points}_drive.csv" --speeds 100 -o "$work/$points"
+    says 'loop.csv is known to [0-9.]+ % between its points; by that compensation can be off in T_ripple by [0-9.]+ % at 100 rpm'
+    run 0 emit "$work/a" --name smooth --machine data/machine_a --drive "$work/${points}_drive.csv" --speed 100 -o "$work/${points}_c"
+    says 'known to [0-9.]+ % between its points; by that compensation can be off in T_ripple by [0-9.]+ % at 100 rpm'
+done
+compensated() { awk -F, '$2 == "compensation" { print $3 }' "$work/$1/speeds.csv"; }
+priced() { sed -n 's/.*"response_ripple":[^0-9]*\([0-9.e-]*\).*/\1/p' "$work/$1/summary.json"; }
+check "four points leave $(compensated four) % at 100 rpm" awk "BEGIN { exit !($(compensated four) < 0.04) }"
+check "exact points are priced with $(priced four) %" awk "BEGIN { exit !($(priced four) < 0.01) }"
+check "noise leaves $(compensated noisy) %, and $(priced noisy) % are told" awk "BEGIN { exit !($(compensated noisy) > 1 && $(compensated noisy) < 2 * $(priced noisy)) }"
+
 # ---- a machine that saturates: its currents are for it, and the loop's tables do for most of it
 
 cp -r data/machine_c_saturated "$work/saturated"

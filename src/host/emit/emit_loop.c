@@ -283,8 +283,16 @@ static hci_status write_files(const emission *e, const char *folder, hci_note *n
     return status;
 }
 
-static hci_emit_loop_result result_of(const hci_loop_set *set)
+/* The speed asked for, or the highest at which all orders are whole. */
+static double told_speed(const hci_loop_set *set, const hci_loop_task *task)
 {
+    const double end = fmin(set->measured_rad_per_s, fmin(set->voltage_rad_per_s, set->sampled_rad_per_s));
+    return task->speed_rad_per_s > 0.0 ? task->speed_rad_per_s : isfinite(end) ? end : 0.0;
+}
+
+static hci_emit_loop_result result_of(const hci_loop_set *set, const hci_loop_task *task)
+{
+    const double told_rad_per_s = told_speed(set, task);
     const hci_loop_f32 *loop = &set->loop;
     return (hci_emit_loop_result){
         .orders = loop->order_count,
@@ -304,6 +312,10 @@ static hci_emit_loop_result result_of(const hci_loop_set *set)
         .voltage_rad_per_s = set->voltage_rad_per_s,
         .sampled_rad_per_s = set->sampled_rad_per_s,
         .measured_rad_per_s = set->measured_rad_per_s,
+        .response_error = hci_loop_set_response_error(set),
+        .response_ripple_percent =
+            hci_loop_set_response_percent(set, task, task->level_count - 1, told_rad_per_s),
+        .response_rad_per_s = told_rad_per_s,
         .crc32 = loop->crc32};
 }
 
@@ -326,7 +338,7 @@ hci_status hci_emit_loop(const char *folder, const hci_emit_loop_request *reques
                                 false};
     if (!status) status = hci_loop_set_make(&task, &e.set, note);
     if (!status) status = write_files(&e, folder, note);
-    if (!status && result) *result = result_of(&e.set);
+    if (!status && result) *result = result_of(&e.set, &task);
     hci_loop_set_release(&e.set);
     return status;
 }

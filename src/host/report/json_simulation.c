@@ -108,6 +108,7 @@ static void put_row(hci_json *json, const hci_speed_row *row)
     hci_json_number(json, "speed_rpm", hci_rpm(row->speed_rad_per_s));
     hci_json_number(json, "needed_dc_link_V", row->needed_V);
     hci_json_number(json, "orders_short", (double)row->orders_short);
+    hci_json_number(json, "response_ripple", row->response_ripple_percent);
     hci_json_array(json, "remedies");
     for (int k = 0; k < HCI_REMEDIES; ++k)
         put_result(json, (hci_remedy)k, &row->remedy[k]);
@@ -126,6 +127,7 @@ char *hci_speeds_json(const hci_speeds *s)
     hci_json_number(&json, "voltage_rpm", hci_rpm(s->voltage_rad_per_s));
     hci_json_number(&json, "sampled_rpm", hci_rpm(s->sampled_rad_per_s));
     hci_json_number(&json, "measured_rpm", hci_rpm(s->measured_rad_per_s));
+    hci_json_number(&json, "response_error", s->response_error);
     hci_json_object(&json, "harmful_from_rpm");
     for (int k = HCI_REMEDY_TABLE; k < HCI_REMEDIES; ++k)
         hci_json_number(&json, hci_remedy_name((hci_remedy)k), hci_rpm(s->harmful_rad_per_s[k]));

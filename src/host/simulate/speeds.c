@@ -271,16 +271,45 @@ static double harmful_from(const hci_speeds *s, int remedy)
     return HUGE_VAL;
 }
 
+static hci_loop_task task_of(const grid *g)
+{
+    const hci_speeds_request *q = g->request;
+    return (hci_loop_task){&g->machine,
+                           q->drive,
+                           q->levels,
+                           q->level_count,
+                           0.0,
+                           0.0,
+                           q->speed_count > 0 && q->speeds_rad_per_s[0] < 0.0};
+}
+
+/* The level nearest to the torque. */
+static size_t level_of(const hci_speeds_request *q)
+{
+    size_t level = 0;
+    for (size_t k = 1; k < q->level_count; ++k)
+        if (fabs(q->levels[k].torque_Nm - q->torque_Nm) < fabs(q->levels[level].torque_Nm - q->torque_Nm))
+            level = k;
+    return level;
+}
+
+/* What the points of loop.csv do not tell. */
+static void fill_response(grid *g)
+{
+    const hci_loop_task task = task_of(g);
+    g->result->response_error = hci_loop_set_response_error(&g->set);
+    for (size_t k = 0; k < g->result->count; ++k)
+        g->result->row[k].response_ripple_percent = hci_loop_set_response_percent(
+            &g->set, &task, level_of(g->request), g->result->row[k].speed_rad_per_s);
+}
+
 /* The dc link that the currents of the level nearest to the torque need. */
 static hci_status fill_needed(grid *g)
 {
     const hci_speeds_request *q = g->request;
-    const hci_loop_level *level = q->levels;
+    const hci_loop_level *level = &q->levels[level_of(q)];
     hci_machine_model model;
     hci_turn_samples samples;
-    for (size_t k = 1; k < q->level_count; ++k)
-        if (fabs(q->levels[k].torque_Nm - q->torque_Nm) < fabs(level->torque_Nm - q->torque_Nm))
-            level = &q->levels[k];
     hci_status status = hci_machine_model_make(&g->machine, &model, g->note);
     if (status) return status;
     status = hci_turn_samples_make(&model, NULL, level, &samples, g->note);
@@ -308,13 +337,7 @@ static hci_status check_torque(const hci_speeds_request *q, hci_note *note)
 static hci_status prepare(grid *g)
 {
     const hci_speeds_request *q = g->request;
-    const hci_loop_task task = {&g->machine,
-                                q->drive,
-                                q->levels,
-                                q->level_count,
-                                0.0,
-                                0.0,
-                                q->speed_count > 0 && q->speeds_rad_per_s[0] < 0.0};
+    const hci_loop_task task = task_of(g);
     hci_status status = check_torque(q, g->note);
     if (!status) status = hci_drive_fit(q->drive, q->machine, &g->machine, g->note);
     for (size_t k = 0; k < q->speed_count && !status; ++k)
@@ -343,6 +366,7 @@ static hci_status fill(grid *g)
     for (size_t k = 0; k < r->count; ++k)
         r->row[k].speed_rad_per_s = q->speeds_rad_per_s[k];
     status = fill_needed(g);
+    fill_response(g);
     for (size_t k = 0; k < r->count && !status; ++k)
         status = run_speed(g, &r->row[k]);
     r->torque_Nm = q->torque_Nm;
