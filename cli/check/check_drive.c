@@ -63,11 +63,9 @@ static void show_speed(const hci_drive_facts *f)
 
 static void show_reading(const hci_drive_facts *f)
 {
-    cli_say("  remedy       %s", hci_response_reading_words(f->reading));
-    if (f->reading == HCI_RESPONSE_GAINS) cli_say(": %.3g times as large", f->reading_value);
-    if (f->reading == HCI_RESPONSE_DELAY) cli_say(": %.3g us", 1e6 * f->reading_value);
-    if (f->reading != HCI_RESPONSE_UNKNOWN) cli_say("; then %.3g %% are left", 100.0 * f->reading_off);
-    cli_say("\n");
+    char text[HCI_RESPONSE_TEXT_SIZE];
+    hci_response_reading_text(f, text);
+    cli_say("  remedy       %s\n", text);
 }
 
 static void show_response(const hci_drive_facts *f)

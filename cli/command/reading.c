@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "cli/terminal/say.h"
+#include "hci/host/drive/drive_facts.h"
 
 hci_status cli_reading_take(const cli_arguments *a, bool strict, const char *angle_offset,
                             cli_reading *reading, hci_note *note)
@@ -116,5 +117,12 @@ void cli_remark_drive(const hci_drive_data *drive)
 {
     hci_note remark = {{0}};
     hci_drive_remark(drive, &remark);
+    cli_remark(&remark);
+}
+
+void cli_remark_response(const hci_drive_data *drive, const hci_machine_data *machine)
+{
+    hci_note remark = {{0}};
+    hci_drive_remark_response(drive, machine, &remark);
     cli_remark(&remark);
 }

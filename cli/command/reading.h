@@ -42,4 +42,7 @@ void cli_remark_each(const hci_note *(*remark)(const void *context, size_t k), c
 /* What was taken for what drive.csv does not say. */
 void cli_remark_drive(const hci_drive_data *drive);
 
+/* Where loop.csv is not what the gains make. */
+void cli_remark_response(const hci_drive_data *drive, const hci_machine_data *machine);
+
 #endif

@@ -54,6 +54,7 @@ int cli_emit_for_drive(const cli_arguments *a)
     if (!status) status = hci_emit_loop(folder, &in.request, &result, &note);
     if (!status && cli_is_wordy()) cli_show_loop(&in.request, &result, folder);
     if (!status) cli_remark_drive(&in.drive);
+    if (!status) cli_remark_response(&in.drive, &in.machine);
     if (!status) cli_emit_remark(a, &in.machine);
     if (!status) cli_emit_remark_zero(a);
     if (!status && cli_emit_wants_json(a))

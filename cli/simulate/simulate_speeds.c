@@ -229,6 +229,7 @@ static hci_status simulate(const cli_speeds_words *w, inputs *in, hci_note *note
     if (!status && w->out) status = hci_speeds_write(&speeds, w->report ? &sources : NULL, w->out, note);
     if (!status && cli_is_wordy()) show(&speeds, w);
     if (!status) cli_remark_drive(&in->drive);
+    if (!status) cli_remark_response(&in->drive, &in->machine);
     for (size_t k = 0; k < w->table_count && !status; ++k) {
         hci_note remark = {{0}};
         hci_solution_remark(w->table[k], &in->machine, &remark);

@@ -75,6 +75,43 @@ run 1 check data/machine_a --drive "$work/late_drive.csv"
 says '^not understood: the measured response' 'response +at most [0-9.]+ % off' 'remedy '
 refused check data/machine_a data/machine_a --drive $drive -o "$work/out" -- 'a machine alone'
 
+# columns that were taken for something else are named, by emit and simulate too, and no gains that are not stable
+
+changed() { # AWK: loop.csv with other columns
+    awk -F, -v OFS=, "NR > 1 { $1 } 1" "$work/analysed.csv" >"$work/changed.csv"
+    sed '$a response,changed.csv,,t' $drive >"$work/changed_drive.csv"
+}
+cat >"$work/analysed.csv" <<'END'
+frequency_Hz,gain_d,phase_d_rad,gain_q,phase_q_rad
+20,0.999488,-0.063002,0.999488,-0.063002
+100,0.981064,-0.314693,0.981064,-0.314693
+200,0.927479,-0.615702,0.927479,-0.615702
+700,0.563191,-1.76997,0.563191,-1.76997
+2000,0.200161,-3.51781,0.200161,-3.51781
+END
+changed '$1 *= 6.2832'
+run 1 check data/machine_a --drive "$work/changed_drive.csv"
+says 'remedy +the frequencies are in another unit, rad/s: multiply the column `frequency_Hz` by 0.1592; then'
+run 0 simulate data/machine_a --table "$work/a" --drive "$work/changed_drive.csv" --speeds 300
+says 'note: .*changed_drive.csv: its `response` is at most [0-9.]+ % off what .* gains.* make of R and L.*rad/s: multiply'
+run 0 emit "$work/a" --name smooth --machine data/machine_a --drive "$work/changed_drive.csv" -o "$work/changed_c"
+says 'note: .*changed_drive.csv: its `response` is at most [0-9.]+ % off what .*rad/s: multiply'
+changed '$2 *= 0.70711; $4 *= 0.70711'
+run 1 check data/machine_a --drive "$work/changed_drive.csv"
+says 'different units, such as peak and rms: multiply the gains by 1\.414; then'
+changed '$2 *= 100; $4 *= 100'
+run 3 check data/machine_a --drive "$work/changed_drive.csv"
+says 'column 2 `gain_d`: found `99.9488`, expected a ratio of amplitudes.*per cent are divided by 100'
+changed '$3 -= 3.14159; $5 -= 3.14159'
+run 3 check data/machine_a --drive "$work/changed_drive.csv"
+says 'add half a turn to the phases'
+changed '$3 += 3.14159; $5 += 3.14159'
+run 1 check data/machine_a --drive "$work/changed_drive.csv"
+says 'different signs: add half a turn to the phases; then'
+changed '$2 *= 1'
+run 0 simulate data/machine_a --table "$work/a" --drive "$work/changed_drive.csv" --speeds 300
+check "a good response is spoken of" [ "$(grep -c 'its .response. is' "$work/stderr")" -eq 0 ]
+
 # four exact points of the loop say all of it, noise is priced
 
 cat >"$work/four.csv" <<'END'

@@ -118,6 +118,7 @@ typedef struct {
 #undef HCI_DRIVE_FIELD
     hci_decoupling decoupling;      /* what it adds */
     bool decoupling_is_given;       /* in the file */
+    bool gains_are_given;           /* in the file: k_p, or a bandwidth */
     hci_modulation modulation;      /* what voltages it reaches */
     hci_response_of response_of;    /* which current it is of */
     hci_loop_point *response;       /* loop.csv, ascending; NULL with count 0: from the gains */
