@@ -97,7 +97,7 @@ static hci_status look(const cli_check_drive_words *w, hci_drive_facts *facts, h
     hci_status status = hci_machine_read_orders(w->machine, w->order_base, &machine, note);
     if (!status) status = hci_drive_read(w->drive, &drive, note);
     if (!status) status = hci_drive_facts_of(&drive, &machine, w->speed_rad_per_s, facts, note);
-    if (!status) cli_remark_drive(&drive);
+    if (!status) cli_remark_drive(&drive, &machine, w->machine);
     hci_drive_release(&drive);
     hci_machine_release(&machine);
     return status;

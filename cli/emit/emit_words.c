@@ -99,6 +99,11 @@ void cli_show_loop(const hci_emit_loop_request *r, const hci_emit_loop_result *r
         "  orders       %zu up to %.4g, %zu level%s of torque from %.4g to %.4g N·m, %zu bytes of flash\n",
         result->orders, result->highest_order, result->levels, result->levels == 1 ? "" : "s",
         result->torque_low_Nm, result->torque_high_Nm, result->flash_bytes);
+    if (result->levels == 1)
+        cli_say("  torque       %.4g N·m whatever is asked for, 0 and negative too; --per-torque, or several "
+                "levels, "
+                "follow what is asked for\n",
+                result->torque_low_Nm);
     cli_say("  table        %zu points, %zu times in %zu electrical turn%s; %zu bytes of RAM, %zu with "
             "feedforward\n",
             result->points, result->repeats, result->period_turns, result->period_turns == 1 ? "" : "s",

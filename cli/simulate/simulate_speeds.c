@@ -58,7 +58,7 @@ static hci_status read_inputs(const cli_speeds_words *w, inputs *in, hci_note *n
     if (!status) status = hci_machine_read_orders(w->machine, w->order_base, &in->machine, note);
     if (!status) status = hci_effects_read_machine(w->machine, &in->effects, note);
     if (!status) status = hci_drive_read(w->drive, &in->drive, note);
-    if (!status) status = hci_loop_levels_read(w->table, w->table_count, false, &in->levels, note);
+    if (!status) status = hci_loop_levels_read(w->table, w->table_count, w->per_torque, &in->levels, note);
     return status;
 }
 
@@ -69,13 +69,19 @@ static double rpm(double rad_per_s)
     return rad_per_s * 30.0 / HCI_PI;
 }
 
+/* Per cent of a torque; of none, N·m. */
+static double shown_ripple(const hci_speeds *s, const hci_speed_result *x, bool worst)
+{
+    if (worst) return x->worst_T_ripple_percent;
+    return s->torque_Nm != 0.0 ? x->T_ripple_percent : x->ripple_Nm;
+}
+
 static void show_rows(const hci_speeds *s, bool worst)
 {
     for (size_t k = 0; k < s->count; ++k) {
         cli_say("  %7.5g rpm ", rpm(s->row[k].speed_rad_per_s));
         for (int r = 0; r < HCI_REMEDIES; ++r)
-            cli_say(" %12.4g", worst ? s->row[k].remedy[r].worst_T_ripple_percent
-                                     : s->row[k].remedy[r].T_ripple_percent);
+            cli_say(" %12.4g", shown_ripple(s, &s->row[k].remedy[r], worst));
         if (worst)
             cli_say("\n");
         else
@@ -190,10 +196,11 @@ static void show(const hci_speeds *s, const cli_speeds_words *w)
 {
     cli_say(CLI_GOOD "simulated" CLI_PLAIN ": %s, %s, %.4g N·m\n", w->machine, w->drive, s->torque_Nm);
     cli_say("  lead         %.4g us; dc link %.4g V\n", 1e6 * s->lead_s, s->dc_link_V);
-    cli_say("\n  T_ripple in %%; needed: the dc link in V that the currents need as they are wanted\n");
+    cli_say("\n  %s; needed: the dc link in V that the currents need as they are wanted\n",
+            s->torque_Nm != 0.0 ? "T_ripple in %" : "swing of the torque, whose mean is to be 0, in N·m");
     cli_say("        speed         sine        table         lead compensation  feedforward   needed\n");
     show_rows(s, false);
-    if (s->model_error > 0.0) {
+    if (s->model_error > 0.0 && s->torque_Nm != 0.0) {
         cli_say("\n  the same, the worst of machines whose R, L and flux are %.3g %% off\n",
                 100.0 * s->model_error);
         show_rows(s, true);
@@ -228,7 +235,7 @@ static hci_status simulate(const cli_speeds_words *w, inputs *in, hci_note *note
     cli_progress_end();
     if (!status && w->out) status = hci_speeds_write(&speeds, w->report ? &sources : NULL, w->out, note);
     if (!status && cli_is_wordy()) show(&speeds, w);
-    if (!status) cli_remark_drive(&in->drive);
+    if (!status) cli_remark_drive(&in->drive, &in->machine, w->machine);
     if (!status) cli_remark_response(&in->drive, &in->machine);
     for (size_t k = 0; k < w->table_count && !status; ++k) {
         hci_note remark = {{0}};

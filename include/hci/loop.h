@@ -69,17 +69,18 @@ typedef struct {
     uint32_t period_turns;              /* electrical turns in 2^32 of angle */
     float base_order;                   /* electrical order of the multiple 1: repeats/period_turns */
     float torque_low_Nm;                /* of the first level */
-    float torque_high_Nm;               /* of the last level; what is outside is clamped */
-    float resistance_ohm;               /* of a phase */
-    float inductance_H[2];              /* L_d, L_q */
-    float proportional_ohm[2];          /* k_p of d and q */
-    float integral_ohm_per_s[2];        /* k_i of both */
-    float filter;                       /* share of a new reading in what the PI sees; 0: no filter */
-    float sample_s;                     /* from one sample to the next */
-    float delay_s;                      /* from a sample to the middle of its voltage's use */
-    float whole_rad_per_s;              /* |ω| below which nothing fades */
-    float lead_s;                       /* delay of the loop at low frequency */
-    uint32_t crc32;                     /* of the waves */
+    float torque_high_Nm;        /* of the last level; what is outside is clamped, so one level is what it
+                                  * is whatever is asked for */
+    float resistance_ohm;        /* of a phase */
+    float inductance_H[2];       /* L_d, L_q */
+    float proportional_ohm[2];   /* k_p of d and q */
+    float integral_ohm_per_s[2]; /* k_i of both */
+    float filter;                /* share of a new reading in what the PI sees; 0: no filter */
+    float sample_s;              /* from one sample to the next */
+    float delay_s;               /* from a sample to the middle of its voltage's use */
+    float whole_rad_per_s;       /* |ω| below which nothing fades */
+    float lead_s;                /* delay of the loop at low frequency */
+    uint32_t crc32;              /* of the waves */
 } hci_loop_f32;
 
 /* What is done about the loop. */
@@ -472,7 +473,14 @@ static inline hci_loop_mix hci_loop_parabola(uint32_t middle, float u)
     return mix;
 }
 
-/* A torque within that of the levels. NaN counts as none, or as what is nearest to none. */
+/* Whether a torque is a number, or none is among the levels, as which NaN counts. */
+static inline int hci_loop_is_asked(const hci_loop_f32 *loop, float torque_Nm)
+{
+    return (torque_Nm > 0.0f) || (torque_Nm <= 0.0f) ||
+           ((loop->torque_low_Nm <= 0.0f) && (loop->torque_high_Nm >= 0.0f));
+}
+
+/* A torque within that of the levels. NaN counts as none. */
 static inline float hci_loop_torque(const hci_loop_f32 *loop, float torque_Nm)
 {
     float t = 0.0f;
@@ -482,7 +490,8 @@ static inline float hci_loop_torque(const hci_loop_f32 *loop, float torque_Nm)
     return t;
 }
 
-/* Parabolas meet at levels, so that currents do not jump. */
+/* Parabolas meet at levels, so that currents do not jump. Where NaN is asked for and none is not among the
+ * levels, nothing is taken of any. */
 static inline hci_loop_mix hci_loop_mix_of(const hci_loop_f32 *loop, float torque_Nm)
 {
     const float range = loop->torque_high_Nm - loop->torque_low_Nm;
@@ -490,7 +499,8 @@ static inline hci_loop_mix hci_loop_mix_of(const hci_loop_f32 *loop, float torqu
     hci_loop_mix mix = {0u, 1u, {1.0f, 0.0f, 0.0f}};
     float x;
     uint32_t panel, middle;
-    if (last == 0u) return mix;
+    if (!hci_loop_is_asked(loop, torque_Nm)) mix.weight[0] = 0.0f;
+    if ((last == 0u) || !(mix.weight[0] > 0.0f)) return mix;
     x = (hci_loop_torque(loop, torque_Nm) - loop->torque_low_Nm) / range;
     if (last == 1u) {
         mix.count = 2u;

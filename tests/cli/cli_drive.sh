@@ -48,7 +48,7 @@ run 3 simulate data/machine_a --table "$work/a" --drive "$work/drive.csv" --spee
 says '/drive.csv: `current_kp` of 6 V/A .*not stable at 0 rpm: largest pole 1\.[0-9]*, .*at most 0\.[0-9]* of that'
 run 3 simulate data/machine_a --table "$work/a" --drive $drive --speeds 80,40000 -o "$work/out"
 says '40000 rpm has 7.5 samples in an electrical turn.*at most 3e\+04 rpm'
-refused simulate data/machine_a --table "$work/a" --drive $drive --speeds 80 --torque 1 -o "$work/out" -- '1 N·m is not among the levels of the table, 2.4[0-9]* to'
+refused simulate data/machine_a --table "$work/a" --drive $drive --speeds 80 --torque 1 -o "$work/out" -- '1 N·m is asked of a table of one level, which makes 2.4[0-9]*'
 run 3 simulate data/machine_a --table "$work/a/currents.csv" --drive $drive --speeds 80 -o "$work/out"
 says 'currents.csv'
 check "something was written" [ ! -e "$work/out" ]
@@ -134,6 +134,33 @@ priced() { sed -n 's/.*"response_ripple":[^0-9]*\([0-9.e-]*\).*/\1/p' "$work/$1/
 check "four points leave $(compensated four) % at 100 rpm" awk "BEGIN { exit !($(compensated four) < 0.04) }"
 check "exact points are priced with $(priced four) %" awk "BEGIN { exit !($(priced four) < 0.01) }"
 check "noise leaves $(compensated noisy) %, and $(priced noisy) % are told" awk "BEGIN { exit !($(compensated noisy) > 1 && $(compensated noisy) < 2 * $(priced noisy)) }"
+
+# ---- L_d and L_q that differ, of which the currents do not know
+
+sed 's/^inductance_q,[^,]*/inductance_q,0.7/' $drive >"$work/salient.csv"
+salient='note: .*salient.csv: L_d of 0.0005 H and L_q of 0.0007 H differ.*without the reluctance torque'
+run 0 simulate data/machine_a --table "$work/a" --drive "$work/salient.csv" --speeds 300
+says "$salient"
+run 0 emit "$work/a" --name smooth --machine data/machine_a --drive "$work/salient.csv" -o "$work/salient"
+says "$salient"
+run 0 solve data/machine_a --target data/scenarios/02/target.csv --auto --drive "$work/salient.csv" --speed 300 -o "$work/salient_a"
+says "$salient"
+run 0 check data/machine_a --drive "$work/salient.csv"
+says "$salient"
+
+# ---- one level makes its torque whatever is asked for, which is said; two make any between them
+
+run 0 emit "$work/a" --name smooth --machine data/machine_a --drive $drive -o "$work/one_level"
+says 'torque +2\.46[0-9]* N·m whatever is asked for, 0 and negative too; --per-torque'
+check "the header does not say what one level does" grep -q 'whatever is asked for' "$work/one_level/smooth.h"
+run 2 simulate data/machine_a --table "$work/a" --drive $drive --speeds 300 --torque 1
+says 'asked of a table of one level, which makes 2\.46[0-9]* N·m whatever is asked for.*--per-torque'
+run 0 simulate data/machine_a --table "$work/a" --drive $drive --speeds 300 --per-torque --torque 1 -o "$work/at_1"
+check "1 N·m of two levels" awk -F, '$2 == "feedforward" { exit !($6 > 0.999 && $6 < 1.001 && $3 < 1) }' "$work/at_1/speeds.csv"
+run 0 simulate data/machine_a --table "$work/a" --drive $drive --speeds 300 --per-torque --torque 0 -o "$work/at_0"
+says 'swing of the torque, whose mean is to be 0, in N·m' '^ +300 rpm +[0-9.]+ +[0-9.]+ +[0-9.]+ +0\.00[0-9.]+ +0\.00'
+check "nan in words" [ "$(grep -c nan "$work/stdout")" -eq 0 ]
+check "the swing at no torque" awk -F, '$2 == "sine" { sine = $11 } $2 == "feedforward" { exit !($11 > 0 && $11 < 0.05 * sine) }' "$work/at_0/speeds.csv"
 
 # ---- a machine that saturates: its currents are for it, and the loop's tables do for most of it
 

@@ -65,14 +65,28 @@ static void write_rpm(hci_output *out, const char *what, double speed_rad_per_s)
         hci_output_text(out, "%sany speed", what);
 }
 
+/* One level is what it is: nobody should find that out on the shaft. */
+static void write_levels(const hci_loop_f32 *loop, hci_output *out)
+{
+    char low[32], high[32];
+    hci_emission_number((double)loop->torque_low_Nm, low);
+    hci_emission_number((double)loop->torque_high_Nm, high);
+    if (loop->levels == 1)
+        hci_output_text(
+            out,
+            " * Torque:  1 level, %s N*m whatever is asked for, 0 and negative too; what is no number is\n"
+            " *          no current. --per-torque, or several levels, follow what is asked for.\n",
+            low);
+    else
+        hci_output_text(out, " * Torque:  %" PRIu32 " levels, %s to %s N*m; what is outside is clamped.\n",
+                        loop->levels, low, high);
+}
+
 static void write_figures(const emission *e, hci_output *out)
 {
     const hci_loop_f32 *loop = &e->set.loop;
     char low[32], high[32];
-    hci_output_text(out, " * Torque:  %" PRIu32 " level%s, %s to %s N*m; what is outside is clamped.\n",
-                    loop->levels, loop->levels == 1 ? "" : "s",
-                    hci_emission_number((double)loop->torque_low_Nm, low),
-                    hci_emission_number((double)loop->torque_high_Nm, high));
+    write_levels(loop, out);
     hci_output_text(out, " * Error:   a table of %" PRIu32 " points is within %s A of its waves, of %s A.\n",
                     loop->points, hci_emission_number(e->set.max_error_A, low),
                     hci_emission_number(e->set.peak_A, high));

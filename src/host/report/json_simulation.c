@@ -95,6 +95,7 @@ static void put_result(hci_json *json, hci_remedy remedy, const hci_speed_result
     hci_json_number(json, "mean_Nm", x->mean_Nm);
     hci_json_number(json, "T_ripple", x->T_ripple_percent);
     hci_json_number(json, "F_ripple", x->F_ripple_percent);
+    hci_json_number(json, "ripple_Nm", x->ripple_Nm);
     hci_json_number(json, "worst_T_ripple", x->worst_T_ripple_percent);
     hci_json_number(json, "peak_phase_A", x->peak_A);
     hci_json_number(json, "peak_line_V", x->line_V);

@@ -143,6 +143,7 @@ static hci_status run(grid *g, const hci_machine_data *machine, hci_remedy remed
     *result = (hci_speed_result){.mean_Nm = s.torque_Nm.mean,
                                  .T_ripple_percent = s.T_ripple_percent,
                                  .F_ripple_percent = s.F_ripple_percent,
+                                 .ripple_Nm = s.torque_Nm.most - s.torque_Nm.least,
                                  .peak_A = s.peak_phase_A,
                                  .line_V = watch.line_V,
                                  .limited_share = (double)s.voltage_limited / (double)s.samples,
@@ -327,9 +328,16 @@ static hci_status check_torque(const hci_speeds_request *q, hci_note *note)
     const double low = q->levels[0].torque_Nm, high = q->levels[q->level_count - 1].torque_Nm;
     const double margin = 1e-9 * fmax(fabs(low), fabs(high));
     if (q->torque_Nm >= low - margin && q->torque_Nm <= high + margin) return HCI_OK;
+    if (q->level_count == 1)
+        return hci_note_set(
+            note, HCI_ERROR_ARGUMENT,
+            "a torque of %.8g N·m is asked of a table of one level, which makes %.8g N·m whatever is "
+            "asked for; with surface magnets --per-torque makes levels from -T to T of it, else give "
+            "the folders of several levels",
+            q->torque_Nm, low);
     return hci_note_set(
         note, HCI_ERROR_ARGUMENT,
-        "a torque of %g N·m is not among the levels of the table, %g to %g N·m; give the folder of "
+        "a torque of %.8g N·m is not within the levels of the table, %.8g to %.8g N·m; give the folder of "
         "another one",
         q->torque_Nm, low, high);
 }

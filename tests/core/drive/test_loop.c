@@ -181,6 +181,14 @@ static void test_torque_slews_without_a_bump_and_is_clamped(void)
             last = r;
         }
         TEST_ASSERT_EQUAL_FLOAT(hci_loop_at(&tables, 777u, 6.0f, 900.0f).iq_A, last.iq_A);
+        /* what is no number is no current where none is not among the levels */
+        loop.torque_low_Nm += 9.0f;
+        loop.torque_high_Nm += 9.0f;
+        const hci_loop_reference none = hci_loop_at(&tables, 777u, NAN, 900.0f);
+        loop.torque_low_Nm -= 9.0f;
+        loop.torque_high_Nm -= 9.0f;
+        TEST_ASSERT_TRUE(!(none.id_A * none.id_A + none.iq_A * none.iq_A > 0.0f));
+        TEST_ASSERT_TRUE(!(none.vd_V * none.vd_V + none.vq_V * none.vq_V > 0.0f));
     }
 }
 

@@ -133,6 +133,12 @@ hci_status hci_drive_read(const char *path, hci_drive_data *drive, hci_note *not
 /* Says what was taken for what the file does not say and drives differ in: the decoupling. */
 void hci_drive_remark(const hci_drive_data *drive, hci_note *remark);
 
+/* Says of L_d and L_q of a drive, as read or fitted, that differ, with a machine that has neither
+ * inductance.csv nor effects with a reluctance torque: the currents of `solve` do not count on theirs.
+ * folder: of the machine. */
+void hci_drive_remark_saliency(const hci_drive_data *drive, const hci_machine_data *machine,
+                               const char *folder, hci_note *remark);
+
 /* Nothing given: every number NAN. */
 void hci_drive_init(hci_drive_data *drive);
 

@@ -36,6 +36,7 @@ const char *hci_remedy_name(hci_remedy remedy);
 typedef struct {
     double mean_Nm;                            /* torque */
     double T_ripple_percent, F_ripple_percent; /* as of hci_simulation */
+    double ripple_Nm;                          /* torque, peak to peak */
     double peak_A;                             /* of a phase */
     double line_V;                             /* largest line voltage at the machine */
     double limited_share;                      /* of the samples asked for more voltage than there is */
