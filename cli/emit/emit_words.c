@@ -74,7 +74,8 @@ void cli_show_table(const hci_emit_request *r, const hci_emit_result *result, co
 static void show_speed(const char *what, double speed_rad_per_s)
 {
     if (isfinite(speed_rad_per_s))
-        cli_say("  %s all orders up to %.4g rpm\n", what, speed_rad_per_s * 30.0 / HCI_PI);
+        cli_say("  %s all orders up to %.6g rpm\n", what,
+                floor(speed_rad_per_s * 30.0 / HCI_PI * (1.0 + 1e-6)));
 }
 
 #define KNOWN_PERCENT 0.001 /* below it figures are not told apart */

@@ -92,7 +92,8 @@ static void show_rows(const hci_speeds *s, bool worst)
 static void show_limit(const char *what, double speed_rad_per_s)
 {
     if (isfinite(speed_rad_per_s))
-        cli_say("  %s does for all orders up to %.4g rpm\n", what, rpm(speed_rad_per_s));
+        cli_say("  %s does for all orders up to %.6g rpm\n", what,
+                floor(rpm(speed_rad_per_s) * (1.0 + 1e-6)));
 }
 
 #define KNOWN_PERCENT 0.001 /* below it figures are not told apart */
@@ -192,6 +193,20 @@ static void show_harm(const hci_speeds *s)
     show_not_compared(s);
 }
 
+/* What no control can make. */
+static void show_beyond(const hci_speeds *s)
+{
+    if (s->reached_V < 0.8 * s->dc_link_V)
+        cli_say("  dead time takes %.3g %% of the dc link; %.4g of %.4g V are left\n",
+                100.0 * (1.0 - s->reached_V / s->dc_link_V), s->reached_V, s->dc_link_V);
+    for (size_t k = 0; k < s->count; ++k)
+        if (s->row[k].back_emf_V > s->reached_V)
+            cli_say("  at %.4g rpm the back-EMF alone takes a dc link of %.4g V, of which there are %.4g: "
+                    "what flows is "
+                    "what it drives\n",
+                    rpm(s->row[k].speed_rad_per_s), s->row[k].back_emf_V, s->reached_V);
+}
+
 static void show(const hci_speeds *s, const cli_speeds_words *w)
 {
     cli_say(CLI_GOOD "simulated" CLI_PLAIN ": %s, %s, %.4g N·m\n", w->machine, w->drive, s->torque_Nm);
@@ -207,6 +222,7 @@ static void show(const hci_speeds *s, const cli_speeds_words *w)
     }
     show_means(s);
     cli_say("\n");
+    show_beyond(s);
     show_limit("voltage ", s->voltage_rad_per_s);
     show_limit("sampling", s->sampled_rad_per_s);
     if (isfinite(s->measured_rad_per_s)) show_limit("loop.csv", s->measured_rad_per_s);

@@ -162,6 +162,42 @@ says 'swing of the torque, whose mean is to be 0, in N·m' '^ +300 rpm +[0-9.]+ 
 check "nan in words" [ "$(grep -c nan "$work/stdout")" -eq 0 ]
 check "the swing at no torque" awk -F, '$2 == "sine" { sine = $11 } $2 == "feedforward" { exit !($11 > 0 && $11 < 0.05 * sine) }' "$work/at_0/speeds.csv"
 
+# ---- what is beyond the dc link, and where the sampling ends
+
+sed 's/^dc_link_voltage,[^,]*/dc_link_voltage,1/' $drive >"$work/tiny.csv"
+run 0 simulate data/machine_a --table "$work/a" --drive "$work/tiny.csv" --speeds 300
+says 'at 300 rpm the back-EMF alone takes a dc link of [0-9.]+ V, of which there are 1: what flows'
+grep -v '^dead_time' $drive | sed '$a dead_time,49,us,t' >"$work/dead.csv"
+run 0 simulate data/machine_a --table "$work/a" --drive "$work/dead.csv" --speeds 300
+says 'dead time takes 98 % of the dc link; 2 of 100 V are left' 'at 300 rpm the back-EMF alone'
+sed 's/^dead_time,49/dead_time,50/' "$work/dead.csv" >"$work/half.csv"
+run 3 simulate data/machine_a --table "$work/a" --drive "$work/half.csv" --speeds 300
+says 'expected less than half a period of the PWM'
+run 0 check data/machine_a --drive $drive --speed 30000
+run 3 check data/machine_a --drive $drive --speed 30010
+run 0 emit "$work/a" --name smooth --machine data/machine_a --drive $drive --speed 300 -o "$work/capped"
+says 'sampling +all orders up to 2250 rpm'
+sed '$a current_filter_time,20,ms,t' $drive >"$work/filtered.csv"
+run 0 check data/machine_a --drive "$work/filtered.csv"
+says 'peak +[dq] answers a reference at [0-9.]+ Hz with [0-9.]+ times as much'
+run 0 check data/machine_a --drive $drive --speed 2500
+says 'for orders up to 48 in the rotor frame, whole up to 43.2'
+check "a loop that does not peak" [ "$(grep -c 'answers a reference' "$work/stdout")" -eq 0 ]
+
+# ---- a scenario says as much of its loop
+
+cp -R data/machine_a "$work/wound"
+printf 'resistance,0.1,ohm,t\ninductance_d,0.5,mH,t\ninductance_q,0.5,mH,t\n' >>"$work/wound/machine.csv"
+printf 'name,value,unit\nduration,0.02,s\nprescribed_speed,300,rpm\ncurrent_control,pi,\ndc_link_voltage,100,V\ntorque_reference,1,Nm\n' >"$work/pi.csv"
+sed '$a current_kp,9,ohm' "$work/pi.csv" >"$work/pi_unstable.csv"
+run 0 simulate "$work/wound" "$work/pi_unstable.csv"
+says 'note: .*the current loop is not stable with a k_p of 9 V/A'
+sed '$a dead_time,60,us' "$work/pi.csv" >"$work/pi_dead.csv"
+run 3 simulate "$work/wound" "$work/pi_dead.csv"
+says '`dead_time` is 6e-05 s, expected less than half of `current_sample_time`'
+run 0 simulate "$work/wound" "$work/pi.csv"
+check "a stable loop is spoken of" [ "$(grep -c 'not stable' "$work/stderr")" -eq 0 ]
+
 # ---- a machine that saturates: its currents are for it, and the loop's tables do for most of it
 
 cp -r data/machine_c_saturated "$work/saturated"

@@ -35,6 +35,20 @@ static double bandwidth_Hz(const hci_loop_model *m, int axis, double highest_rad
     return high / (2.0 * HCI_PI);
 }
 
+/* Largest answer, of the frequencies looked at. */
+static double peak_of(const hci_loop_model *m, int axis, double highest_rad_per_s, double *at_Hz)
+{
+    double most = 0.0;
+    for (int k = 0; k <= FREQUENCIES; ++k) {
+        const double nu = 1e-4 * highest_rad_per_s * pow(1e4, (double)k / FREQUENCIES);
+        const double gain = cabs(answer_of(m, axis, nu));
+        if (!(gain > most)) continue;
+        most = gain;
+        *at_Hz = nu / (2.0 * HCI_PI);
+    }
+    return most;
+}
+
 /* ---- stability ---- */
 
 static double gain_margin(const hci_loop_model *m)
@@ -86,6 +100,7 @@ static void look_at(const hci_drive_data *d, const hci_machine_model *machine, h
     const hci_loop_model m = hci_drive_loop(d, machine, 0.0);
     for (int axis = 0; axis < 2; ++axis) {
         f->inductance_H[axis] = machine->inductance_H[axis];
+        f->peak[axis] = peak_of(&m, axis, highest, &f->peak_Hz[axis]);
         f->bandwidth_Hz[axis] = bandwidth_Hz(&m, axis, highest);
     }
     f->lead_s = -carg(answer_of(&m, 1, late)) / late;

@@ -311,12 +311,17 @@ static void fill_level_ranges(maker *m, size_t level, partial_turn *x)
     }
 }
 
+/* Electrical speed at which an order is the highest that the sampling does for. */
+static double sampled_end(const maker *m, size_t k)
+{
+    const double order = (double)m->order[k] / (double)m->level[0].turns;
+    return hci_drive_highest_rad_per_s(m->task->drive) / order;
+}
+
 /* Where half the sampling is near, or no more speed is asked for. */
 static void limit_range(const maker *m, size_t k, hci_loop_range *range)
 {
-    const double p = m->machine.table.pole_pairs;
-    const double order = (double)m->order[k] / (double)m->level[0].turns;
-    const double end = hci_drive_highest_rad_per_s(m->task->drive) / order;
+    const double p = m->machine.table.pole_pairs, end = sampled_end(m, k);
     const double whole =
         m->task->speed_rad_per_s > 0.0 ? fmin(0.9 * end, m->task->speed_rad_per_s * p) : 0.9 * end;
     *range = (hci_loop_range){(float)whole, (float)(whole / 0.9)};
@@ -345,7 +350,7 @@ static hci_status fill_ranges(maker *m)
     set->ranges[0] = (hci_loop_range){FLT_MAX, FLT_MAX};
     for (size_t k = 1; k < m->count; ++k)
         limit_range(m, k, &set->ranges[k]);
-    set->sampled_rad_per_s = m->count > 1 ? (double)set->ranges[m->count - 1].whole_rad_per_s / p : HUGE_VAL;
+    set->sampled_rad_per_s = m->count > 1 ? 0.9 * sampled_end(m, m->count - 1) / p : HUGE_VAL;
     for (size_t l = 0; l < m->task->level_count; ++l)
         fill_level_ranges(m, l, x);
     set->voltage_rad_per_s = m->voltage_end / p;

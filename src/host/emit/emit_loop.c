@@ -60,7 +60,7 @@ static void write_rpm(hci_output *out, const char *what, double speed_rad_per_s)
     char text[32];
     if (isfinite(speed_rad_per_s))
         hci_output_text(out, "%s%s rpm", what,
-                        hci_emission_number(floor(speed_rad_per_s * 30.0 / HCI_PI), text));
+                        hci_emission_number(floor(speed_rad_per_s * 30.0 / HCI_PI * (1.0 + 1e-6)), text));
     else
         hci_output_text(out, "%sany speed", what);
 }

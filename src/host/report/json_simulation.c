@@ -108,6 +108,7 @@ static void put_row(hci_json *json, const hci_speed_row *row)
     hci_json_object(json, NULL);
     hci_json_number(json, "speed_rpm", hci_rpm(row->speed_rad_per_s));
     hci_json_number(json, "needed_dc_link_V", row->needed_V);
+    hci_json_number(json, "back_emf_V", row->back_emf_V);
     hci_json_number(json, "orders_short", (double)row->orders_short);
     hci_json_number(json, "response_ripple", row->response_ripple_percent);
     hci_json_array(json, "remedies");
@@ -123,6 +124,7 @@ char *hci_speeds_json(const hci_speeds *s)
     hci_summary_begin(&json, "simulate");
     hci_json_number(&json, "torque_Nm", s->torque_Nm);
     hci_json_number(&json, "dc_link_V", s->dc_link_V);
+    hci_json_number(&json, "reached_V", s->reached_V);
     hci_json_number(&json, "lead_s", s->lead_s);
     hci_json_number(&json, "model_error_percent", 100.0 * s->model_error);
     hci_json_number(&json, "voltage_rpm", hci_rpm(s->voltage_rad_per_s));

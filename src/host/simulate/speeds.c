@@ -304,21 +304,39 @@ static void fill_response(grid *g)
             &g->set, &task, level_of(g->request), g->result->row[k].speed_rad_per_s);
 }
 
-/* The dc link that the currents of the level nearest to the torque need. */
-static hci_status fill_needed(grid *g)
+/* The dc link that currents need at each speed. */
+static hci_status find_links(const grid *g, const hci_machine_model *model, const hci_loop_level *level,
+                             double *(*of_row)(hci_speed_row *))
 {
-    const hci_speeds_request *q = g->request;
-    const hci_loop_level *level = &q->levels[level_of(q)];
-    hci_machine_model model;
     hci_turn_samples samples;
-    hci_status status = hci_machine_model_make(&g->machine, &model, g->note);
-    if (status) return status;
-    status = hci_turn_samples_make(&model, NULL, level, &samples, g->note);
+    const hci_status status = hci_turn_samples_make(model, NULL, level, &samples, g->note);
     for (size_t k = 0; k < g->result->count && !status; ++k)
-        g->result->row[k].needed_V =
-            hci_turn_samples_dc_link_V(&samples, model.resistance_ohm, q->drive->modulation,
+        *of_row(&g->result->row[k]) =
+            hci_turn_samples_dc_link_V(&samples, model->resistance_ohm, g->request->drive->modulation,
                                        g->result->row[k].speed_rad_per_s * g->machine.model.pole_pairs);
     hci_turn_samples_release(&samples);
+    return status;
+}
+
+static double *needed_of(hci_speed_row *row)
+{
+    return &row->needed_V;
+}
+
+static double *back_emf_of(hci_speed_row *row)
+{
+    return &row->back_emf_V;
+}
+
+/* Of the level nearest to the torque, and of no current. */
+static hci_status fill_needed(grid *g)
+{
+    const hci_loop_level none = {0.0, NULL, 0};
+    hci_machine_model model;
+    hci_status status = hci_machine_model_make(&g->machine, &model, g->note);
+    if (status) return status;
+    status = find_links(g, &model, &g->request->levels[level_of(g->request)], needed_of);
+    if (!status) status = find_links(g, &model, &none, back_emf_of);
     hci_machine_model_release(&model);
     return status;
 }
@@ -380,6 +398,7 @@ static hci_status fill(grid *g)
     r->torque_Nm = q->torque_Nm;
     r->model_error = q->model_error;
     r->dc_link_V = q->drive->dc_link_voltage_V;
+    r->reached_V = r->dc_link_V * (1.0 - 2.0 * hci_drive_dead_share(q->drive));
     r->lead_s = (double)g->set.loop.lead_s;
     r->voltage_rad_per_s = g->set.voltage_rad_per_s;
     r->sampled_rad_per_s = g->set.sampled_rad_per_s;

@@ -48,6 +48,8 @@ typedef struct {
     double inductance_H[2];   /* L_d and L_q, means over a turn */
     double bandwidth_Hz[2];   /* d and q: the answer is 3 dB down, at standstill; INFINITY: nowhere below the
                                  highest frequency */
+    double peak[2];           /* d and q: largest answer to a reference of 1, at standstill */
+    double peak_Hz[2];        /* where */
     double lead_s;            /* how late the current is at low frequency */
     double largest_pole;      /* of the closed loop at standstill, in z */
     double gain_margin;       /* both gains can be so many times as large; at most 100 */

@@ -47,6 +47,7 @@ typedef struct {
 typedef struct {
     double speed_rad_per_s;         /* mechanical */
     double needed_V;                /* dc link voltage that the currents as they are wanted need */
+    double back_emf_V;              /* the same without any current */
     double response_ripple_percent; /* of the mean torque, peak to peak, that compensation can be left with by
                                      * what loop.csv does not tell; NAN without it, and without a torque */
     size_t orders_short; /* of the table: not whole, since the voltage or the sampling does not do */
@@ -75,6 +76,7 @@ typedef struct {
     double torque_Nm;          /* asked for */
     double model_error;        /* as requested */
     double dc_link_V;          /* of the drive */
+    double reached_V;          /* what dead time leaves of it */
     double lead_s;             /* by which the table is read ahead */
     double voltage_rad_per_s;  /* mechanical: above it the voltage does not do for all orders; HUGE_VAL */
     double sampled_rad_per_s;  /* mechanical: above it the sampling does not do for all orders; HUGE_VAL */
