@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "host/base/quote.h"
 #include "host/drive/machine_model.h"
 #include "host/drive/response_reading.h"
 
@@ -130,4 +131,21 @@ hci_status hci_drive_facts_of(hci_drive_data *drive, const hci_machine_data *mac
     look_at(drive, &model, facts);
     hci_machine_model_release(&model);
     return HCI_OK;
+}
+
+void hci_drive_remark_response(const hci_drive_data *drive, const hci_machine_data *machine, hci_note *remark)
+{
+    char text[HCI_RESPONSE_TEXT_SIZE], path[HCI_QUOTE_PATH_SIZE];
+    hci_drive_data d = *drive;
+    hci_drive_facts f;
+    hci_note note = {{0}};
+    if (d.response_count == 0 || hci_drive_facts_of(&d, machine, 0.0, &f, &note)) return;
+    if (f.reading == HCI_RESPONSE_AS_DECLARED) return;
+    hci_response_reading_text(&f, text);
+    hci_note_add(remark,
+                 "%s: its `response` is at most %.3g %% off what %s make of R and L, at %.4g Hz, and "
+                 "`compensation` and `lead` are of the response: %s",
+                 hci_quote_path(drive->path, path), 100.0 * f.response_off,
+                 drive->gains_are_given ? "its gains" : "the default gains, since it has none,",
+                 f.response_off_Hz, text);
 }

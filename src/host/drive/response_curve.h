@@ -4,8 +4,9 @@
 #ifndef HCI_SRC_HOST_DRIVE_RESPONSE_CURVE_H
 #define HCI_SRC_HOST_DRIVE_RESPONSE_CURVE_H
 
-#include <complex.h>
 #include <stddef.h>
+
+#include "host/drive/loop_model.h"
 
 /* 1/(C H) of one axis at a frequency: C the controller, H the hold and the delay of its voltage. */
 typedef struct {

@@ -3,8 +3,6 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "host/base/quote.h"
-
 #define NAME_OF(value, word, what)  [value] = word,
 #define WORDS_OF(value, word, what) [value] = what,
 static const char *const NAMES[] = {HCI_RESPONSE_READINGS(NAME_OF)};
@@ -159,21 +157,4 @@ void hci_response_reading_text(const hci_drive_facts *f, char text[HCI_RESPONSE_
     else
         snprintf(text, HCI_RESPONSE_TEXT_SIZE, "%s%s; then %.3g %% are left", WORDS[f->reading], value,
                  100.0 * f->reading_off);
-}
-
-void hci_drive_remark_response(const hci_drive_data *drive, const hci_machine_data *machine, hci_note *remark)
-{
-    char text[HCI_RESPONSE_TEXT_SIZE], path[HCI_QUOTE_PATH_SIZE];
-    hci_drive_data d = *drive;
-    hci_drive_facts f;
-    hci_note note = {{0}};
-    if (d.response_count == 0 || hci_drive_facts_of(&d, machine, 0.0, &f, &note)) return;
-    if (f.reading == HCI_RESPONSE_AS_DECLARED) return;
-    hci_response_reading_text(&f, text);
-    hci_note_add(remark,
-                 "%s: its `response` is at most %.3g %% off what %s make of R and L, at %.4g Hz, and "
-                 "`compensation` and `lead` are of the response: %s",
-                 hci_quote_path(drive->path, path), 100.0 * f.response_off,
-                 drive->gains_are_given ? "its gains" : "the default gains, since it has none,",
-                 f.response_off_Hz, text);
 }
