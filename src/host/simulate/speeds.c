@@ -92,9 +92,13 @@ static void tell(const grid *g, double share)
         q->progress(q->progress_context, "simulating", ((double)g->done + share) / (double)g->runs);
 }
 
+/* So that the slowest speeds are told of too: some tens of milliseconds of a processor. */
+static const double TOLD_SAMPLES = 5000.0;
+
 static void tell_time(voltage_watch *w, double time_s)
 {
-    if (time_s - w->told_s < 0.01 * w->duration_s) return;
+    const double every_s = fmin(0.01 * w->duration_s, TOLD_SAMPLES * w->grid->request->drive->sample_s);
+    if (time_s - w->told_s < every_s) return;
     w->told_s = time_s;
     tell(w->grid, time_s / w->duration_s);
 }
