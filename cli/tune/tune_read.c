@@ -10,6 +10,7 @@
 #include "cli/tune/tune_cover.h"
 #include "cli/tune/tune_options.h"
 #include "cli/tune/tune_read.h"
+#include "cli/tune/tune_suspect.h"
 #include "hci/host/currents/target.h"
 #include "hci/host/report/write.h"
 #include "hci/host/waveform/waveform.h"
@@ -20,7 +21,8 @@
 bool cli_tune_is_blocked(const cli_tuning *t)
 {
     return t->has_slip || t->has_misfit || t->has_unsteady || t->has_no_angle || t->has_alias ||
-           t->has_standstill || t->inertia_share > 0.0 || t->tells_no_order;
+           t->has_standstill || t->inertia_share > 0.0 || t->tells_no_order || t->jump_rad > 0.0 ||
+           t->is_not_followed;
 }
 
 /* ---- what is read ---- */
@@ -62,6 +64,8 @@ hci_status cli_tune_begin(const cli_arguments *a, cli_tuning *t, hci_note *note)
     if (a->given[TUNE_RUNS] && a->words != 1)
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
                             "tune: found %zu words, expected one machine beside --runs LIST", a->words);
+    status = cli_tune_claim_folder(t->out, note);
+    if (status) return status;
     cli_tune_note(t, "#!/bin/sh\n# What tune did, step by step, from the folder where it was called: sh "
                      "commands.sh NEW_FOLDER\n"
                      "set -eu\nOUT=${1:?give a new folder}\nmkdir -p \"$OUT\"\n");

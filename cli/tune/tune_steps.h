@@ -49,6 +49,8 @@ typedef struct {
         inertia_share; /* of the recording where it is largest, as in hci_run; 0: the inertia is believable */
     bool has_standstill;   /* the angle changes in none of the recordings */
     double once_a_turn_Nm; /* cogging torque of once a turn that a load on the shaft may make; 0: none */
+    double jump_rad; /* electrical, by which the angle of a recording jumps and stands between; 0: none does */
+    bool is_not_followed; /* the angle of a recording does not go where its speed leads */
     bool has_doubt;        /* check does not understand something else */
     bool has_alias; /* samples lie too far apart for the order of slots and poles, which shows as another one
                      */

@@ -9,6 +9,7 @@
 #include "cli/terminal/text.h"
 #include "cli/tune/tune_cover.h"
 #include "cli/tune/tune_options.h"
+#include "cli/tune/tune_suspect.h"
 #include "cli/tune/tune_waveforms.h"
 
 /* Times the noise that a ripple may have without being looked at. */
@@ -281,6 +282,17 @@ static void say_next_turn(cli_tuning *t)
     hci_tuning *r = &t->tuning;
     if (t->has_no_angle)
         say_next_angle(t);
+    else if (t->jump_rad > 0.0)
+        hci_tuning_say(
+            r, HCI_TUNING_NEXT,
+            "Log an angle that does not jump: of an encoder, or what the drive makes of its Hall "
+            "sensors or its observer between them, and say what it is: --column theta_e_deg=COLUMN "
+            "for electrical degrees. Where the shaft turns steadily, a line through the instants of "
+            "the jumps is such an angle.");
+    else if (t->is_not_followed)
+        hci_tuning_say(r, HCI_TUNING_NEXT,
+                       "Look which columns were read as angle, speed and current, and say it by --column "
+                       "theta_m_rad=COLUMN, speed_rad_per_s=COLUMN and iq_A=COLUMN, in their units.");
     else if (t->inertia_share > 0.0)
         hci_tuning_say(r, HCI_TUNING_NEXT,
                        "Give --inertia in kg·m², or leave it out: turns forward and back tell whether it "
@@ -540,6 +552,15 @@ static void append(cli_tuning *t, const char *format, ...)
 /* What the table needs of the drive, and does not do. */
 static void append_of_table(cli_tuning *t)
 {
+    if (t->once_a_turn_Nm > 0.0 && t->is_solved)
+        append(
+            t,
+            "; %.3g N·m of it come once or twice a turn, and a load on the shaft makes that as well as the "
+            "motor: without that load the table adds them",
+            t->once_a_turn_Nm);
+    if (cli_tune_clipped(t) > 0 && t->is_solved)
+        append(t, "; currents in %zu of %zu logs are clipped, and what they tell is too small",
+               cli_tune_clipped(t), t->runs.count);
     if (t->is_solved && *t->solution.corrections)
         append(t, "; this once the drive's sensors, where they are those of the logs, are corrected: %s",
                t->solution.corrections);
@@ -557,9 +578,6 @@ static void append_of_table(cli_tuning *t)
 /* What the recordings do not tell of the torque. */
 static void append_of_torque(cli_tuning *t)
 {
-    if (t->once_a_turn_Nm > 0.0)
-        append(t, "; of it %.3g N·m once a turn may be of what hangs on the shaft, and not of the motor",
-               t->once_a_turn_Nm);
     if (reach_of_slopes(t) > 0.0)
         append(t, "; these recordings do not show cogging torque above order %.3g", reach_of_slopes(t));
     if (cli_tune_is_short(t) && t->is_solved)
@@ -607,7 +625,10 @@ static const char *why_not_solved(const cli_tuning *t)
            : t->has_no_angle
                ? "The log has no angle of the rotor, and a table over one whose zero nobody knows "
                  "cannot be played, so nothing was solved"
-           : t->has_slip     ? t->slip
+           : t->has_slip        ? t->slip
+           : t->is_not_followed ? "The angle does not go where the speed leads: one of the two columns is "
+                                  "another quantity (two "
+                                  "of them exchanged?), so nothing was solved"
            : t->has_unsteady ? "The current of a shaft that turns in jerks does not tell its cogging torque, "
                                "so nothing was "
                                "solved"
@@ -637,10 +658,25 @@ static void say_inertia(cli_tuning *t)
         GRAM_CM2 * inertia_kgm2);
 }
 
+static void say_jumps(cli_tuning *t)
+{
+    const double degrees = t->jump_rad * 180.0 / HCI_PI;
+    snprintf(
+        t->tuning.heading, sizeof t->tuning.heading,
+        "The angle stands and jumps by %.3g electrical degrees, as Hall sensors have it (60 where it is an "
+        "electrical one, here read with %d pole pairs), which tells no order of a ripple, so nothing was "
+        "solved",
+        degrees, t->declared.model.pole_pairs);
+}
+
 static void say_why_not_solved(cli_tuning *t)
 {
     hci_tuning *r = &t->tuning;
     const char *column = lacks_torque(t) ? torque_like(t) : NULL;
+    if (t->jump_rad > 0.0) {
+        say_jumps(t);
+        return;
+    }
     if (t->inertia_share > 0.0 && !t->has_slip && !t->has_misfit) {
         say_inertia(t);
         return;
@@ -655,8 +691,9 @@ static const char *verdict_of(const cli_tuning *t)
 {
     return t->tuning.good                                  ? "tuned"
            : t->has_slip                                   ? "a convention is broken"
-           : t->has_misfit                                 ? "the conventions are not understood"
+           : t->has_misfit || t->is_not_followed           ? "the conventions are not understood"
            : t->has_no_angle                               ? "not enough in the logs"
+           : t->jump_rad > 0.0                             ? "not enough in the logs"
            : t->has_unsteady                               ? "the shaft sticks and slips"
            : t->has_alias                                  ? "the samples lie too far apart"
            : t->inertia_share > 0.0                        ? "the inertia is not believable"
@@ -677,7 +714,8 @@ void cli_tune_conclude(cli_tuning *t)
     if (hangs_on_lag(t)) say_lag(t);
     say_next(t);
     r->good = t->is_emitted && !t->diagnosed && !r->solved && !t->has_doubt && !is_of_no_use(t) &&
-              !cli_tune_is_short(t);
+              !cli_tune_is_short(t) && !(t->once_a_turn_Nm > 0.0) && !is_far_beyond(t) &&
+              cli_tune_clipped(t) == 0 && !misses_torque(t);
     snprintf(r->verdict, sizeof r->verdict, "%s", verdict_of(t));
     if (t->is_solved)
         set_heading(t);

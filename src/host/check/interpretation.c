@@ -49,13 +49,20 @@ static const struct {
 static double of_peak(int kind)
 {
     switch (kind) {
-        case CHECK_EMF_RMS: return SQRT2;
-        case CHECK_EMF_LINE: return 1.0 / SQRT3;
-        case CHECK_EMF_LINE_RMS: return SQRT2 / SQRT3;
-        case CHECK_EMF_TAKEN_FOR_RMS: return 1.0 / SQRT2;
-        case CHECK_EMF_TAKEN_FOR_LINE: return SQRT3;
-        case CHECK_EMF_TAKEN_FOR_LINE_RMS: return SQRT3 / SQRT2;
-        default: return 1.0;
+    case CHECK_EMF_RMS:
+        return SQRT2;
+    case CHECK_EMF_LINE:
+        return 1.0 / SQRT3;
+    case CHECK_EMF_LINE_RMS:
+        return SQRT2 / SQRT3;
+    case CHECK_EMF_TAKEN_FOR_RMS:
+        return 1.0 / SQRT2;
+    case CHECK_EMF_TAKEN_FOR_LINE:
+        return SQRT3;
+    case CHECK_EMF_TAKEN_FOR_LINE_RMS:
+        return SQRT3 / SQRT2;
+    default:
+        return 1.0;
     }
 }
 

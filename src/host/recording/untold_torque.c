@@ -116,11 +116,12 @@ static void judge_stops(hci_run *run)
     const size_t stops = hci_speed_stops(run, run->pole_pairs, &path_turns);
     if (run->is_unsteady || stops < LEAST_STOPS || !((double)stops > STOPS_A_TURN * path_turns)) return;
     run->is_unsteady = true;
-    hci_note_add(&run->remark,
-                 "the shaft comes to rest %zu times on its way and goes on, in %.3g electrical turns there and "
-                 "back: it sticks and slips, or goes in steps, so that its current answers acceleration and "
-                 "breakaway, and orders found in it are not those of cogging torque",
-                 stops, path_turns);
+    hci_note_add(
+        &run->remark,
+        "the shaft comes to rest %zu times on its way and goes on, in %.3g electrical turns there and "
+        "back: it sticks and slips, or goes in steps, so that its current answers acceleration and "
+        "breakaway, and orders found in it are not those of cogging torque",
+        stops, path_turns);
 }
 
 /* Told where the current answers breakaway and acceleration, and not cogging torque alone. */

@@ -95,7 +95,8 @@ static bool is_all(const hci_task *t, double top_order)
     return t->highest_rotor_order > 0.0 && top_order > t->highest_rotor_order + 1.0;
 }
 
-/* Whether orders twice as high would be no answer any more: their current has a kink, or they cost too much. */
+/* Whether orders twice as high would be no answer any more: their current has a kink, or they cost too much.
+ */
 static bool is_most(const search *s, double top_order)
 {
     const double waves = 2.0 * 2.0 * top_order * (double)s->task->period_turns;
