@@ -202,11 +202,27 @@ static void say_once_a_turn(cli_tuning *t, const order_sum *sum, size_t count)
     }
 }
 
+/* Slots that are not those of the motor: no order that they make is among the larger ones. */
+static void judge_slots(cli_tuning *t, const order_sum *sum, size_t count)
+{
+    const double slots = cli_tune_order_of_slots(t);
+    double most_Nm = 0.0, order = 0.0;
+    for (size_t k = 0; k < count; ++k)
+        if (hypot(sum[k].sine_Nm, sum[k].cosine_Nm) > most_Nm)
+            most_Nm = hypot(sum[k].sine_Nm, sum[k].cosine_Nm), order = sum[k].order;
+    for (size_t k = 0; k < count && slots > 0.0; ++k)
+        if (hypot(sum[k].sine_Nm, sum[k].cosine_Nm) > MUCH * most_Nm && sum[k].order > 0.5 * slots &&
+            fabs(remainder(sum[k].order, slots)) < HCI_ORDER_TOLERANCE)
+            return;
+    if (slots > 0.0 && order > 2.0) t->stranger_order = order;
+}
+
 static void say_cogging(cli_tuning *t)
 {
     static order_sum sum[MOST_ORDERS];
     const size_t count = sum_cogging(t, sum);
     say_once_a_turn(t, sum, count);
+    judge_slots(t, sum, count);
     if (t->cogging.kept == 0) return;
     hci_tuning_say(&t->tuning, HCI_TUNING_FOUND,
                    "cogging torque and what else follows the angle alone, %zu "

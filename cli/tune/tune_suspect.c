@@ -65,10 +65,10 @@ static void judge_jumps(cli_tuning *t, const hci_run *r)
 #define ELSEWHERE 0.5 /* of the way that angle and speed go, rms over parts of a recording */
 enum { PARTS = 16 };
 
-/* Its direction is left to check, which knows a speed without a sign. */
-static bool goes_elsewhere(const hci_run *r)
+/* Its direction is left to check, which knows a speed without a sign. *ratio: out, of the ways. */
+static bool goes_elsewhere(const hci_run *r, double *ratio)
 {
-    double difference = 0.0, way = 0.0;
+    double difference = 0.0, way = 0.0, all_turned = 0.0, all_led = 0.0;
     if (!r->time_s || !r->theta_m_rad || !r->speed_rad_per_s || r->speed_window > 0 || r->zero_is_unknown ||
         r->count < PARTS * PARTS)
         return false;
@@ -79,9 +79,12 @@ static bool goes_elsewhere(const hci_run *r)
         for (size_t k = from; k < to; ++k)
             led +=
                 0.5 * (r->speed_rad_per_s[k] + r->speed_rad_per_s[k + 1]) * (r->time_s[k + 1] - r->time_s[k]);
+        all_turned += turned;
+        all_led += fabs(led);
         difference += (turned - fabs(led)) * (turned - fabs(led));
         way += fmax(turned * turned, led * led);
     }
+    *ratio = all_led > 0.0 ? all_turned / all_led : 0.0;
     return difference > ELSEWHERE * ELSEWHERE * way;
 }
 
@@ -91,7 +94,7 @@ void cli_tune_suspect(cli_tuning *t)
     t->is_not_followed = false;
     for (size_t k = 0; k < t->runs.count; ++k) {
         judge_jumps(t, &t->runs.run[k]);
-        t->is_not_followed = t->is_not_followed || goes_elsewhere(&t->runs.run[k]);
+        if (!t->is_not_followed) t->is_not_followed = goes_elsewhere(&t->runs.run[k], &t->angle_to_speed);
     }
 }
 

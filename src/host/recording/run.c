@@ -365,6 +365,7 @@ static hci_status read_dq(reader *r, hci_run_column d, hci_run_column q, double 
     if (status) return status;
     *phases = hci_memory_new(r->run->count, 3 * sizeof(double));
     if (*phases == NULL) return memory_error(r);
+    if (d == HCI_RUN_ID) r->run->lacks_id = has(r, q) && !has(r, d);
     if (has(r, q)) status = turn_dq(r, r->columns.value[d], r->columns.value[q], *phases);
     hci_run_column_drop(&r->columns, d);
     hci_run_column_drop(&r->columns, q);
