@@ -69,7 +69,7 @@ static void test_what_stays(void)
     TEST_ASSERT_FALSE(is_slope());
 }
 
-/* At 0.2 rad/s on the whole, in jerks of `jerk_rad` with rests between; 0: evenly, with a pause in the
+/* At 0.4 rad/s on the whole, in jerks of `jerk_rad` with rests between; 0: evenly, with a pause in the
  * middle. */
 static void read_jerks(double jerk_rad)
 {
@@ -79,7 +79,7 @@ static void read_jerks(double jerk_rad)
     TEST_ASSERT_NOT_NULL(file);
     fprintf(file, "time_s,theta_m_rad,iq_A\n");
     for (int k = 0; k < 4000; ++k) {
-        const double way = 0.002 * (k < 2000 ? k : k < 2400 ? 2000 : k - 400), rest = fmod(way, jerk_rad);
+        const double way = 0.004 * (k < 2000 ? k : k < 2400 ? 2000 : k - 400), rest = fmod(way, jerk_rad);
         const double theta = jerk_rad > 0.0 ? way - rest + fmax(0.0, 5.0 * rest - 4.0 * jerk_rad) : way;
         fprintf(file, "%.9g,%.9g,%.9g\n", 0.01 * k, theta, cos(0.1 * k));
     }
