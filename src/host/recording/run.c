@@ -14,7 +14,6 @@
 #include "host/numeric/statistics.h"
 #include "host/numeric/unwrap.h"
 #include "host/recording/bare_angle.h"
-#include "host/recording/clipped.h"
 #include "host/recording/clock.h"
 #include "host/recording/computed_torque.h"
 #include "host/recording/effort.h"
