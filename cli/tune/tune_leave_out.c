@@ -127,13 +127,3 @@ hci_status cli_tune_leave_out(cli_tuning *t, hci_note *note)
     if (!status) judge_runs(t);
     return status;
 }
-
-bool cli_tune_is_typed(const cli_tuning *t)
-{
-    bool typed = false;
-    for (size_t k = 0; k < t->runs.count; ++k) {
-        if (t->runs.run[k].torque_source == HCI_TORQUE_MEASURED) return false;
-        typed = typed || t->runs.run[k].torque_is_typed;
-    }
-    return typed;
-}

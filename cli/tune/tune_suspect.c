@@ -105,3 +105,13 @@ size_t cli_tune_clipped(const cli_tuning *t)
         clipped += t->runs.run[k].is_clipped;
     return clipped;
 }
+
+bool cli_tune_is_typed(const cli_tuning *t)
+{
+    bool typed = false;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        if (t->runs.run[k].torque_source == HCI_TORQUE_MEASURED) return false;
+        typed = typed || t->runs.run[k].torque_is_typed;
+    }
+    return typed;
+}
