@@ -10,6 +10,7 @@
 
 #define BEYOND        1.05 /* of the largest current and speed fitted: beyond it a run is no test */
 #define NOISY         1.5  /* error of a run held out, over its noise … */
+#define NEAR          1.2  /* … of a torque that was measured, where half of what is not noise is left */
 #define COARSE        4.0  /* … or over the resolution, that speaks against the effects … */
 #define HARDLY_BETTER 0.5  /* … unless it is less than this share of the error without them */
 #define NEARLY_ALL    0.1  /* share of an error that is next to nothing beside what it was */
@@ -37,8 +38,16 @@ static bool is_within(const hci_run_statistics *f, const hci_dataset *b)
 /* Errors of the runs held out that a fit could describe, as mean squares over runs. */
 typedef struct {
     double before, after;
-    double allowed; /* what noise and resolution may leave */
+    double allowed;                             /* what noise and resolution may leave */
+    double told_before, told_after, told_noise; /* of runs whose noise is well known: measured torques */
 } test_errors;
+
+static void told_add(const hci_run_errors *e, double resolution_Nm, test_errors *x)
+{
+    x->told_before += e->rms_before_Nm * e->rms_before_Nm;
+    x->told_after += e->rms_after_Nm * e->rms_after_Nm;
+    x->told_noise += fmax(pow(e->noise_floor_Nm, 2.0), pow(COARSE / NOISY * resolution_Nm, 2.0));
+}
 
 static test_errors test_errors_of(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d,
                                   double resolution_Nm)
@@ -52,6 +61,7 @@ static test_errors test_errors_of(const hci_dataset *b, const hci_runs *runs, co
         x.before += e->rms_before_Nm * e->rms_before_Nm;
         x.after += e->rms_after_Nm * e->rms_after_Nm;
         x.allowed += fmax(pow(NOISY * e->noise_floor_Nm, 2.0), pow(COARSE * resolution_Nm, 2.0));
+        if (runs->run[k].torque_source == HCI_TORQUE_MEASURED) told_add(e, resolution_Nm, &x);
     }
     return x;
 }
@@ -62,12 +72,21 @@ static bool is_described(const test_errors *x)
     return !(x->after > x->allowed) || x->after < NEARLY_ALL * NEARLY_ALL * x->before;
 }
 
+/* Whether an error that is small beside the noise, but stands out of it, has hardly fallen: of what is not
+ * noise more than a share of the mean square is left. */
+static bool is_hardly_less(const test_errors *x, double share)
+{
+    return x->told_after > NEAR * NEAR * x->told_noise &&
+           x->told_after - x->told_noise > share * (x->told_before - x->told_noise);
+}
+
 /* Whether the runs held out speak against the effects: they are not described down to their noise, and hardly
  * better than without; of what was kept of them because it helps, no better at all. */
 static bool is_contradicted(const test_errors *x, bool kept)
 {
     const double share = kept ? STAYS : HARDLY_BETTER;
-    return !is_described(x) && x->after > share * share * x->before;
+    return (!is_described(x) && x->after > share * share * x->before) ||
+           is_hardly_less(x, kept ? STAYS * STAYS : HARDLY_BETTER);
 }
 
 /* Whether the mean error of a run that was fitted stands beside its noise: a mean is known much better than a
