@@ -52,8 +52,9 @@ static void say_verdict(hci_output *out, const hci_diagnosis *d, const char *mac
     hci_diagnosis_words(d, words, sizeof words);
     heading_of(d, heading);
     snprintf(kicker, sizeof kicker, "Diagnosis of a machine model · %s", machine);
-    hci_html_begin(
-        out, &(hci_html_opening){kicker, BADGE[d->verdict], heading, d->verdict <= HCI_DIAGNOSIS_EXPLAINED});
+    hci_html_begin(out,
+                   &(hci_html_opening){kicker, d->odd.file ? "One recording disagrees" : BADGE[d->verdict],
+                                       heading, d->verdict <= HCI_DIAGNOSIS_EXPLAINED && !d->odd.file});
     hci_html_paragraph(out, "lead", words);
 }
 
