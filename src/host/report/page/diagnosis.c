@@ -32,7 +32,9 @@ static void heading_of(const hci_diagnosis *d, char text[NAMES_SIZE + 128])
     char added[NAMES_SIZE], either[NAMES_SIZE];
     names_of(d, HCI_FINDING_ADDED, added);
     names_of(d, HCI_FINDING_AMBIGUOUS, either);
-    if (d->verdict == HCI_DIAGNOSIS_COMPLETE)
+    if (d->odd.file)
+        snprintf(text, NAMES_SIZE + 128, "Only %.200s disagrees with the other recordings", d->odd.file);
+    else if (d->verdict == HCI_DIAGNOSIS_COMPLETE)
         snprintf(text, NAMES_SIZE + 128, "The model describes these recordings");
     else if (d->verdict == HCI_DIAGNOSIS_EXPLAINED && added[0])
         snprintf(text, NAMES_SIZE + 128, "The model lacked %s", added);
