@@ -15,6 +15,8 @@
 #define HARDLY_BETTER 0.5  /* … unless it is less than this share of the error without them */
 #define NEARLY_ALL    0.1  /* share of an error that is next to nothing beside what it was */
 #define RIPPLE        2.0  /* over the noise, which of slopes is known by half: a ripple that is there */
+#define MUCH          2.0  /* the same of all runs: the model is not complete … */
+#define MUCH_OF_ONE   4.0  /* … nor where one run leaves as much */
 #define MEAN_LEFT     0.5  /* of the noise of a sample, that the mean of a run may be off */
 #define RIPPLE_LEFT   0.3  /* share of the error of a fitted run that a ripple beside its noise is of */
 #define HELPS         1.05 /* of the error held out, without an effect that lowers it */
@@ -114,6 +116,40 @@ static bool leaves_ripple(const hci_diagnosis *d, double resolution_Nm)
     return false;
 }
 
+/* The samples of a run. */
+static double rows_of(const hci_dataset *b, size_t run)
+{
+    double rows = 0.0;
+    for (size_t k = 0; k < b->samples.segment_count; ++k)
+        if (b->samples.segment[k].run == run) rows += (double)b->samples.segment[k].count;
+    return rows;
+}
+
+/* χ² that chance adds to runs held out by the errors of the values of the effects, twice over. */
+static double by_chance(const hci_diagnosis *d)
+{
+    double terms = 0.0;
+    for (size_t k = 0; k < d->effects.list.count; ++k)
+        terms += (double)d->effects.list.effect[k].count;
+    return BY_CHANCE + 2.0 * terms;
+}
+
+/* Whether all runs held out together are described worse than by the declared machine, however near to their
+ * noise they are. */
+static bool rises_at_all(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d)
+{
+    double rise = 0.0; /* χ² */
+    for (size_t k = 0, run = 0; k < runs->count && run < d->runs; ++k) {
+        const hci_run_errors *e = &d->run[run];
+        if (e->file != runs->run[k].name) continue;
+        ++run;
+        if (e->role == HCI_ROLE_FIT || !(e->noise_floor_Nm > 0.0)) continue;
+        const double weight = rows_of(b, k) / (e->noise_floor_Nm * e->noise_floor_Nm);
+        rise += weight * (pow(e->rms_after_Nm, 2.0) - pow(e->rms_before_Nm, 2.0));
+    }
+    return rise > by_chance(d) && d->holdout_after_Nm > RISES * d->holdout_before_Nm;
+}
+
 /* Whether something is left that the effects do not explain: the error held out is above the noise, or that
  * of currents and speeds beyond those that were fitted does not fall. */
 static bool is_partial(const test_errors *x, const hci_diagnosis *d, double resolution_Nm)
@@ -126,12 +162,22 @@ static bool is_partial(const test_errors *x, const hci_diagnosis *d, double reso
            leaves_ripple(d, resolution_Nm);
 }
 
+bool hci_held_out_leaves_much(const hci_diagnosis *d, double resolution_Nm)
+{
+    const double least_Nm = COARSE * resolution_Nm;
+    for (size_t k = 0; k < d->runs; ++k)
+        if (d->run[k].rms_after_Nm > fmax(MUCH_OF_ONE * d->run[k].noise_floor_Nm, least_Nm)) return true;
+    return d->rms_after_Nm > fmax(MUCH * d->noise_Nm, least_Nm) ||
+           d->holdout_after_Nm > fmax(MUCH * d->holdout_noise_Nm, least_Nm);
+}
+
 hci_held_out_result hci_held_out_judge(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d,
                                        double resolution_Nm)
 {
     const test_errors x = test_errors_of(b, runs, d, resolution_Nm);
     if (is_contradicted(&x, d->contradicted)) return HCI_HELD_OUT_CONTRADICTED;
-    return is_partial(&x, d, resolution_Nm) ? HCI_HELD_OUT_PARTLY : HCI_HELD_OUT_DESCRIBED;
+    return is_partial(&x, d, resolution_Nm) || rises_at_all(b, runs, d) ? HCI_HELD_OUT_PARTLY
+                                                                        : HCI_HELD_OUT_DESCRIBED;
 }
 
 bool hci_held_out_rises(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d,
@@ -139,15 +185,6 @@ bool hci_held_out_rises(const hci_dataset *b, const hci_runs *runs, const hci_di
 {
     const test_errors x = test_errors_of(b, runs, d, resolution_Nm);
     return x.after > x.allowed && x.after > RISES * RISES * x.before;
-}
-
-/* The samples of a run. */
-static double rows_of(const hci_dataset *b, size_t run)
-{
-    double rows = 0.0;
-    for (size_t k = 0; k < b->samples.segment_count; ++k)
-        if (b->samples.segment[k].run == run) rows += (double)b->samples.segment[k].count;
-    return rows;
 }
 
 bool hci_held_out_rises_both(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d)
