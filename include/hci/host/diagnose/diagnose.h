@@ -181,7 +181,9 @@ typedef struct {
                          * made of, in words; NULL: nothing such */
     bool not_searched;  /* because of that slip no effect was looked for */
     bool magnetic_only; /* direct current alone: beside iron nothing else was looked for */
-    bool inertia_as_well;    /* free shafts alone: a wrong inertia looks the same as an ambiguous effect */
+    bool sensors_as_well; /* current sensors that read each other's current look the same as an ambiguous one
+                           */
+    bool inertia_as_well; /* free shafts alone: a wrong inertia looks the same as an ambiguous effect */
     double open_voltage_off; /* share by which voltages without a current differ from the declared back-EMF;
                               * 0: none were recorded */
     bool against_voltages; /* the torques ask for another torque per ampere, which voltages that were recorded

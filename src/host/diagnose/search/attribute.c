@@ -13,6 +13,7 @@
 #include "host/diagnose/search/coenergy.h"
 #include "host/diagnose/search/companions.h"
 #include "host/diagnose/search/no_load.h"
+#include "host/diagnose/search/phases.h"
 #include "host/diagnose/search/rivals.h"
 #include "host/diagnose/search/rounds.h"
 #include "host/diagnose/search/scaled.h"
@@ -250,6 +251,7 @@ static hci_status verdicts(hci_search *s, hci_attribution *a, hci_note *note)
     if (!status && !hci_search_is_over(s)) status = verdicts_of_others(s, a, note);
     if (!status && !hci_search_is_over(s)) status = verdicts_of_same(s, a, note);
     if (!status && !hci_search_is_over(s)) status = verdicts_of_equal(s, a, note);
+    if (!status && !is_beside_unknown(a)) status = hci_search_phases_mark(a, note);
     if (!status && !a->unknown) status = verdicts_of_ratio(s, a, note);
     return status;
 }
