@@ -8,6 +8,7 @@
 #include "host/diagnose/fit/linearise.h"
 #include "host/diagnose/fit/model.h"
 #include "host/diagnose/fit/run_parts.h"
+#include "host/diagnose/sidebands.h"
 #include "host/diagnose/width_trials.h"
 #include "host/recording/rotor_frame.h"
 
@@ -342,6 +343,7 @@ hci_status hci_uncertainty_find(hci_regression *regression, const hci_candidates
     hci_candidates all = {0};
     memset(uncertainty, 0, sizeof *uncertainty);
     hci_status status = with_alternatives(fitted, alternatives, &all, note);
+    if (!status) status = hci_sidebands_add(regression->machine, &all, note);
     if (!status) status = hci_allowed_terms_make(f.regression, &all, &f.terms, note);
     if (!status) status = parts_add(&f, note);
     if (!status && f.runs.count >= HCI_LEAST_GROUPS) {
