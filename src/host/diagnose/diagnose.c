@@ -101,6 +101,19 @@ static bool is_unrepeated(const hci_diagnosis *d)
     return !known || apart > REPEATED * (left + apart);
 }
 
+/* The machine that each ambiguous effect would make of the recordings, where it is not the one that is
+ * written down. */
+static hci_alternatives alternatives_of(const hci_attribution *a)
+{
+    hci_alternatives x = {{NULL}, 0};
+    for (size_t r = 0; r < a->types && x.count < HCI_MOST_ALTERNATIVES; ++r) {
+        const hci_verdict *v = &a->verdict[r];
+        if (v->ambiguous && v->alternative.candidates.candidate)
+            x.machine[x.count++] = &v->alternative.candidates;
+    }
+    return x;
+}
+
 /* What no effect explains is described, and then leaves: it never gets into a machine. */
 static hci_status fill(hci_dataset *b, const hci_runs *runs, hci_attribution *a, hci_diagnosis *d,
                        hci_note *note)
@@ -115,9 +128,10 @@ static hci_status fill(hci_dataset *b, const hci_runs *runs, hci_attribution *a,
     zeros_fill(&b->samples, d);
     hci_unexplained_fill(b, a, d);
     hci_candidates_remove_type(&a->model.candidates, &hci_empirical_type);
+    const hci_alternatives others = alternatives_of(a);
     hci_status status = effects_fill(&b->regression, &a->model.candidates, d, note);
     if (!status && !a->unknown && a->ended == HCI_WORK_COMPLETE) /* of a model that had no rival: no bound */
-        status = hci_uncertainty_find(&b->regression, &a->model.candidates, &d->uncertainty, note);
+        status = hci_uncertainty_find(&b->regression, &a->model.candidates, &others, &d->uncertainty, note);
     if (status == HCI_ERROR_STOPPED) { /* all else is known */
         d->search = a->ended = HCI_WORK_INTERRUPTED;
         status = HCI_OK;

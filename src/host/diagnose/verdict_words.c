@@ -364,8 +364,12 @@ static void say_ambiguous(const hci_words *w, const hci_diagnosis *d)
     say_added(w, d);
     hci_words_say(w, "%sThese recordings do not tell ", any(d, HCI_FINDING_ADDED) ? " " : "");
     say_names(w, d, HCI_FINDING_AMBIGUOUS, d->inertia_as_well ? ", " : " and ");
-    hci_words_say(w, "%s apart: each explains them equally well.",
-                  d->inertia_as_well ? " and a wrong inertia" : "");
+    hci_words_say(w, "%s",
+                  d->sensors_as_well
+                      ? " from current sensors that read a part of each other's current: these "
+                        "explain them equally well."
+                  : d->inertia_as_well ? " and a wrong inertia apart: each explains them equally well."
+                                       : " apart: each explains them equally well.");
     if (d->inertia_as_well)
         hci_words_say(w, " A free shaft shows torque per ampere and inertia as their ratio only.");
 }
