@@ -8,6 +8,7 @@
 #include "host/base/path.h"
 #include "host/base/quote.h"
 #include "host/csv/most_rows.h"
+#include "host/recording/computed_torque.h"
 #include "host/recording/run_columns.h"
 #include "host/recording/untold_torque.h"
 
