@@ -23,6 +23,7 @@ enum {
 #define CLOSE         3e-3 /* distance as a share of the current at which nothing better is near */
 #define CLOSEST       1e-5 /* the same where the mean is as wanted, so that the ripple is judged alone */
 #define LEFT          5e-8 /* share of the torque; less ripple than that is not looked for */
+#define SAME          1e-6 /* share of the torque that does not count */
 #define HELD          0.5  /* share of the promised gain that a step must make for a longer one */
 #define SETTLING      1e-2 /* the same for the last step, which brings peaks within their limits */
 #define POLISH        0.1  /* of that distance, for each further step */
@@ -134,11 +135,21 @@ static bool is_weighed(const path *p)
     return p->radius_A > 0.0 && p->wishes->is_coarse && p->wishes->program.has_mean;
 }
 
+/* Whether a precise step takes errors away of a torque and a voltage that were made linear elsewhere, between
+ * the angles too, for no more than copper. */
+static bool tightens(const path *p, const hci_limit_merit *merit)
+{
+    const double same_Nm = SAME * p->wishes->program.scale_Nm;
+    return p->radius_A > 0.0 && merit->overshoot_Nm <= p->merit.overshoot_Nm &&
+           merit->mean_error_Nm <= p->merit.mean_error_Nm + same_Nm &&
+           merit->ripple_Nm <= p->merit.ripple_Nm + same_Nm;
+}
+
 /* Whether an answer is better than the best. */
 static bool is_less(const path *p, const hci_limit_merit *merit)
 {
     if (is_weighed(p)) return weighed_Nm(merit) < weighed_Nm(&p->merit);
-    return hci_limit_merit_less(merit, &p->merit, p->wishes->program.scale_Nm);
+    return tightens(p, merit) || hci_limit_merit_less(merit, &p->merit, p->wishes->program.scale_Nm);
 }
 
 /* Keeps the answer where its true torque is better than that of the best. */
