@@ -12,6 +12,10 @@
 #include "host/solution/limits.h"
 #include "host/solve/linear.h"
 
+enum {
+    MOST_MORE = 90
+}; /* components that are tried where fewer were before: the time grows with their cube */
+
 #define SMALL       1e-3 /* share of the torque below which the ripple may be that of orders left out */
 #define SMALL_SWING 4e-3 /* the same from peak to peak */
 #define NEAR        1e-4 /* share of the torque to which an answer without its last steps tells the mean */
@@ -217,6 +221,10 @@ static hci_status take_better(hci_wishes *cut, const hci_solution *without, hci_
     hci_wishes w = {.of = cut->of};
     hci_status status = merit_of(cut, &before, note);
     if (!status) status = hci_limited_set_choose(a, true, &w, note);
+    if (!status && w.set.count > MOST_MORE) {
+        hci_wishes_release(&w);
+        return take(cut, without, a, note);
+    }
     if (!status) status = hci_wishes_begin(&w, note);
     if (!status) status = find(&w, a, note);
     if (!status) status = merit_of(&w, &merit, note);

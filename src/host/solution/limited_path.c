@@ -12,7 +12,7 @@ enum {
     MOST_STEPS = 60,
     PATIENCE = 4, /* steps in which neither the change is halved nor the torque better, after which the
                    * distance is bounded */
-    POLISHES = 3, /* steps after the last, each within less of it */
+    POLISHES = 2, /* steps after the last, each within less of it */
     HALVES = 5    /* of the currents that the first step begins at, where rounding spoils it */
 };
 
@@ -22,15 +22,17 @@ enum {
 #define CONVERGED     1e-8 /* change of the current as a share of it */
 #define CLOSE         3e-3 /* distance as a share of the current at which nothing better is near */
 #define CLOSEST       1e-5 /* the same where the mean is as wanted, so that the ripple is judged alone */
-#define LEFT          5e-8 /* share of the torque; less ripple than that is not looked for */
+#define LEFT          1e-6 /* share of the torque; less ripple than that is not looked for */
+#define FREE          5e-7 /* share of the torque that a mean may be off at no charge, see weighed_Nm */
 #define SAME          1e-6 /* share of the torque that does not count */
-#define HELD          0.5  /* share of the promised gain that a step must make for a longer one */
+#define HELD          0.25 /* share of the promised gain that a step must make for a longer one */
 #define SETTLING      1e-2 /* the same for the last step, which brings peaks within their limits */
 #define POLISH        0.1  /* of that distance, for each further step */
 #define LEAST_SHARE   0.1  /* of the way to an answer */
 #define SHRINK        0.3
 #define AFTER_FAILURE 0.1 /* the same after a step that rounding spoils */
 #define GROW          2.0
+#define CORRECTED     0.1 /* of a step that was not better, for the one that corrects it */
 
 #define MEAN_TO_RIPPLE 2.0 /* ripple that an error of the mean stands for, per its size */
 
@@ -51,6 +53,8 @@ typedef struct {
     double share, least_change;
     double promised_Nm; /* less ripple, by what is linear, of the last step within a bound */
     int idle, halved;   /* steps since the least change was halved; how often the first currents were */
+    int slow;           /* steps within a bound since one made more of the torque than LEFT */
+    double tried_A;     /* bound of the step that is being corrected, see correct; 0: none is */
 } path;
 
 static double length(const path *p, const double *x)
@@ -123,10 +127,12 @@ hci_status hci_limited_path_merit(const hci_wishes *w, const double *x, hci_limi
 }
 
 /* The ripple with the errors of mean and voltage, which a step within a bound leaves of the order of its
- * square and the next one takes away. */
-static double weighed_Nm(const hci_limit_merit *m)
+ * square and the next one takes away. What the last steps take away anyhow is free: charged, it would keep
+ * the steps short (Maratos). */
+static double weighed_Nm(const path *p, const hci_limit_merit *m)
 {
-    return m->ripple_Nm + MEAN_TO_RIPPLE * (m->mean_error_Nm + m->overshoot_Nm);
+    const double off_Nm = m->mean_error_Nm + m->overshoot_Nm - FREE * p->wishes->program.scale_Nm;
+    return m->ripple_Nm + MEAN_TO_RIPPLE * fmax(off_Nm, 0.0);
 }
 
 /* Whether steps within a bound are judged by that: as long as the mean can be had at all. */
@@ -148,7 +154,7 @@ static bool tightens(const path *p, const hci_limit_merit *merit)
 /* Whether an answer is better than the best. */
 static bool is_less(const path *p, const hci_limit_merit *merit)
 {
-    if (is_weighed(p)) return weighed_Nm(merit) < weighed_Nm(&p->merit);
+    if (is_weighed(p)) return weighed_Nm(p, merit) < weighed_Nm(p, &p->merit);
     return tightens(p, merit) || hci_limit_merit_less(merit, &p->merit, p->wishes->program.scale_Nm);
 }
 
@@ -202,17 +208,42 @@ static bool is_restless(path *p, bool is_better)
     return p->idle > PATIENCE;
 }
 
-/* was_Nm: the weighed ripple of the best answer before. A step that made much less of it than what was linear
- * promised is no reason for a longer one. */
-static void move_bounded(path *p, bool is_better, double was_Nm)
+/* A step that was not better may have gone the right way, with an error of the square of its length: one
+ * short step beside its end, which takes that away, before a shorter one is tried. */
+static void correct(path *p)
 {
-    const double moved_A = distance(p, p->wishes->x, p->from), gained_Nm = was_Nm - weighed_Nm(&p->merit);
-    p->promised_Nm = was_Nm - p->wishes->program.ripple_Nm;
-    if (!is_better)
+    p->tried_A = p->radius_A;
+    p->radius_A *= CORRECTED;
+    memcpy(p->from, p->wishes->x, p->n * sizeof *p->from);
+}
+
+/* The bound of the next step from the best answer on. A step that made much less than what was linear
+ * promised is no reason for a longer one. */
+static void bound_next(path *p, bool is_better, double gained_Nm)
+{
+    const double moved_A = distance(p, p->wishes->x, p->from);
+    if (p->tried_A > 0.0)
+        p->radius_A = p->tried_A * (is_better ? 1.0 : SHRINK);
+    else if (!is_better)
         p->radius_A = SHRINK * fmin(p->radius_A, moved_A);
     else if (moved_A > 0.9 * p->radius_A && (!is_weighed(p) || gained_Nm > HELD * p->promised_Nm))
         p->radius_A *= GROW;
+    p->tried_A = 0.0;
     memcpy(p->from, p->best, p->n * sizeof *p->from);
+}
+
+/* was_Nm: the weighed ripple of the best answer before. */
+static void move_bounded(path *p, bool is_better, double was_Nm)
+{
+    const double gained_Nm = was_Nm - weighed_Nm(p, &p->merit);
+    const bool is_new = !(p->tried_A > 0.0);
+    if (is_new) p->promised_Nm = was_Nm - p->wishes->program.ripple_Nm;
+    if (is_new && !is_better && is_weighed(p)) {
+        correct(p);
+        return;
+    }
+    p->slow = gained_Nm > LEFT * p->wishes->program.scale_Nm ? 0 : p->slow + 1;
+    bound_next(p, is_better, gained_Nm);
 }
 
 /* Where rounding spoils a step: from the best answer on, within less; before there is one, from half of the
@@ -227,14 +258,16 @@ static hci_status step_back(path *p, hci_status status, const hci_note *why, hci
             p->from[j] *= 0.5;
         return HCI_OK;
     }
-    p->radius_A = p->radius_A > 0.0 ? SHRINK * p->radius_A : AFTER_FAILURE * length(p, p->best);
+    p->radius_A =
+        p->radius_A > 0.0 ? SHRINK * fmax(p->radius_A, p->tried_A) : AFTER_FAILURE * length(p, p->best);
+    p->tried_A = 0.0;
     memcpy(p->from, p->best, p->n * sizeof *p->from);
     return HCI_OK;
 }
 
 static hci_status advance(path *p, hci_note *note)
 {
-    const double before = p->change, was_Nm = weighed_Nm(&p->merit);
+    const double before = p->change, was_Nm = weighed_Nm(p, &p->merit);
     bool is_better = false;
     hci_note why = {{0}};
     hci_status status;
@@ -256,7 +289,7 @@ static hci_status advance(path *p, hci_note *note)
 static bool goes_on(const path *p)
 {
     if (is_weighed(p))
-        return p->radius_A > CLOSEST * length(p, p->from) &&
+        return p->radius_A > CLOSEST * length(p, p->from) && p->slow < PATIENCE &&
                p->promised_Nm > LEFT * p->wishes->program.scale_Nm;
     if (p->radius_A > 0.0) return p->radius_A > CLOSE * length(p, p->from);
     return p->wishes->is_coarse || p->change > COARSE || (p->change > CONVERGED && p->idle == 0);
