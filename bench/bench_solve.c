@@ -92,14 +92,15 @@ static void make_components(problem *p)
 static void make_sparse(void *context)
 {
     problem *p = (problem *)context;
-    hci_system_sparse(p->emf, EMF_COUNT, p->component, p->components, p->orders, p->components,
-                      p->sparse.column_start, p->sparse.row, p->sparse.value);
+    hci_system_sparse(&(hci_mutual_torque){p->emf, EMF_COUNT, p->orders, p->components}, p->component,
+                      p->components, p->sparse.column_start, p->sparse.row, p->sparse.value);
 }
 
 static void make_dense(void *context)
 {
     problem *p = (problem *)context;
-    hci_system_dense(p->emf, EMF_COUNT, p->component, p->components, p->orders, p->components, p->dense);
+    hci_system_dense(&(hci_mutual_torque){p->emf, EMF_COUNT, p->orders, p->components}, p->component,
+                     p->components, p->dense);
 }
 
 /* h = U x of a drawn x, so that every solver can be checked. */

@@ -16,7 +16,19 @@
 #include "hci/host/report/summary.h"
 #include "hci/host/report/write.h"
 
-enum { CURRENTS, TABLE, DRIVE, SPEEDS, TORQUE, MODEL_ERROR, OUT, REPORT, ORDER_BASE, CLI_COMMON_KEYS };
+enum {
+    CURRENTS,
+    TABLE,
+    DRIVE,
+    SPEEDS,
+    TORQUE,
+    PER_TORQUE,
+    MODEL_ERROR,
+    OUT,
+    REPORT,
+    ORDER_BASE,
+    CLI_COMMON_KEYS
+};
 
 static const cli_option OPTIONS[] = {
     [CURRENTS] = {"currents", 0, CLI_FILE, "PATH",
@@ -32,6 +44,10 @@ static const cli_option OPTIONS[] = {
     [TORQUE] = {"torque", 0, CLI_NUMBER, "NM",
                 .help = "with --table: what is asked for (default: the highest level)", .low = -1e9,
                 .high = 1e9},
+    [PER_TORQUE] =
+        {"per-torque", 0, CLI_FLAG, NULL,
+         .help = "with --table: as `emit --per-torque`, levels -T and T of one solution, for any --torque "
+                 "between them"},
     [MODEL_ERROR] = {"model-error", 0, CLI_NUMBER, "PERCENT",
                      .help =
                          "with --table: also machines whose resistance, inductance and flux are so much off",
@@ -142,8 +158,10 @@ static hci_status check_together(const cli_arguments *a, hci_note *note)
         wrong = "simulate: --table needs --drive FILE and --speeds RPM,...";
     else if (table && a->given[CURRENTS])
         wrong = "simulate: --table and --currents both say what flows; delete one of them";
-    else if (!table && (a->given[DRIVE] || a->given[SPEEDS] || a->given[TORQUE] || a->given[MODEL_ERROR]))
-        wrong = "simulate: --drive, --speeds, --torque and --model-error go with --table FOLDER";
+    else if (!table && (a->given[DRIVE] || a->given[SPEEDS] || a->given[TORQUE] || a->given[PER_TORQUE] ||
+                        a->given[MODEL_ERROR]))
+        wrong =
+            "simulate: --drive, --speeds, --torque, --per-torque and --model-error go with --table FOLDER";
     return wrong ? hci_note_set(note, HCI_ERROR_ARGUMENT, "%s", wrong) : HCI_OK;
 }
 
@@ -155,6 +173,7 @@ static int run_speeds(const cli_arguments *a)
                                     .table_count = a->repeats,
                                     .speeds = a->value[SPEEDS],
                                     .torque_Nm = a->number[TORQUE],
+                                    .per_torque = a->given[PER_TORQUE],
                                     .error_percent = cli_number_or(a, MODEL_ERROR, 0.0),
                                     .out = a->value[OUT],
                                     .report = a->given[REPORT],

@@ -86,11 +86,25 @@ static bool is_vain(const hci_grid *s)
     return count[HCI_GRID_LIMITS] + count[HCI_GRID_FAILED] == s->plan.count;
 }
 
+/* As cli_sweep_run keeps them: not before one point is done that did not fail, or a share. */
+static bool is_kept(const cli_arguments *a, const hci_grid *s)
+{
+    bool is_any = a->value[SWEEP_SHARD] != NULL;
+    for (size_t k = 0; k < s->plan.count; ++k)
+        is_any = is_any || (s->done[k] && s->row[k].verdict != HCI_GRID_FAILED);
+    return a->value[SWEEP_OUT] && is_any;
+}
+
 static void say_unfinished(const cli_arguments *a, const hci_grid *s)
 {
+    const bool kept = is_kept(a, s);
     if (!cli_is_wordy()) return;
-    cli_say("%zu of %zu points are done%s%s\n", hci_grid_done(s), s->plan.count,
-            a->value[SWEEP_OUT] ? " and kept in " : "", a->value[SWEEP_OUT] ? a->value[SWEEP_OUT] : "");
+    cli_say("%zu of %zu points are done%s%s\n", hci_grid_done(s), s->plan.count, kept ? " and kept in " : "",
+            kept ? a->value[SWEEP_OUT] : "");
+    if (a->value[SWEEP_OUT] && !kept) {
+        cli_say("  nothing is written before the first of them: the same command begins anew\n");
+        return;
+    }
     if (a->value[SWEEP_SHARD] && !cli_signals_deferred(NULL))
         cli_say(
             "  the same command without --shard and with --join for each folder puts the shares together\n");

@@ -286,7 +286,7 @@ hci_status cli_batch_run(cli_batch_work *work, hci_note *note)
     const size_t count = work->batch->list.count;
     hci_status status = HCI_OK;
     work->row = calloc(count, sizeof *work->row);
-    c.item = malloc(count * sizeof *c.item);
+    c.item = calloc(count, sizeof *c.item);
     c.stored = (hci_fleet_stored){calloc(count, sizeof(double)), calloc(count, sizeof(bool)), false, false};
     if (!work->row || !c.item || !c.stored.seconds || !c.stored.is_stored)
         status = hci_note_memory(note, NULL, "the motors of a list");

@@ -35,6 +35,19 @@ static void show_more(const hci_drive_facts *f)
     if (d->filter_s > 0.0) cli_say("  filter       of the measured current, %.4g us\n", 1e6 * d->filter_s);
 }
 
+/* Twice the reference and more is not what `stable` promises. */
+#define PEAK 2.0
+
+static void show_peak(const hci_drive_facts *f)
+{
+    const int axis = f->peak[1] >= f->peak[0];
+    if (f->peak[axis] < PEAK) return;
+    cli_say("  " CLI_WARN "peak" CLI_PLAIN
+            "         %s answers a reference at %.3g Hz with %.3g times as much: lead and table "
+            "are worse than nothing near it\n",
+            axis ? "q" : "d", f->peak_Hz[axis], f->peak[axis]);
+}
+
 static void show_loop(const hci_drive_facts *f)
 {
     cli_say("  loop         pi at %.4g kHz, k_p %.4g V/A, k_i %.4g V/(A·s); a voltage acts %.4g us after "
@@ -48,14 +61,15 @@ static void show_loop(const hci_drive_facts *f)
     cli_say(" (3 dB down, at standstill); slow currents are %.3g ms late\n", 1e3 * f->lead_s);
     cli_say("  gains        %s%.3g times as large the loop is not stable any more; largest pole %.4g\n",
             f->gain_margin >= 100.0 ? "above " : "", f->gain_margin, f->largest_pole);
+    show_peak(f);
 }
 
 static void show_speed(const hci_drive_facts *f)
 {
     cli_say("  sampling     up to %.4g rpm (10 samples in an electrical turn)", rpm(f->sampled_rad_per_s));
     if (f->speed_rad_per_s > 0.0)
-        cli_say("; at %.5g rpm for orders up to %.3g in the rotor frame", rpm(f->speed_rad_per_s),
-                f->highest_order);
+        cli_say("; at %.5g rpm for orders up to %.3g in the rotor frame, whole up to %.3g",
+                rpm(f->speed_rad_per_s), f->highest_order, 0.9 * f->highest_order);
     cli_say("\n");
     if (isfinite(f->stable_rad_per_s))
         cli_say("  " CLI_WARN "stable" CLI_PLAIN "       up to %.4g rpm\n", rpm(f->stable_rad_per_s));
@@ -63,11 +77,9 @@ static void show_speed(const hci_drive_facts *f)
 
 static void show_reading(const hci_drive_facts *f)
 {
-    cli_say("  remedy       %s", hci_response_reading_words(f->reading));
-    if (f->reading == HCI_RESPONSE_GAINS) cli_say(": %.3g times as large", f->reading_value);
-    if (f->reading == HCI_RESPONSE_DELAY) cli_say(": %.3g us", 1e6 * f->reading_value);
-    if (f->reading != HCI_RESPONSE_UNKNOWN) cli_say("; then %.3g %% are left", 100.0 * f->reading_off);
-    cli_say("\n");
+    char text[HCI_RESPONSE_TEXT_SIZE];
+    hci_response_reading_text(f, text);
+    cli_say("  remedy       %s\n", text);
 }
 
 static void show_response(const hci_drive_facts *f)
@@ -99,7 +111,7 @@ static hci_status look(const cli_check_drive_words *w, hci_drive_facts *facts, h
     hci_status status = hci_machine_read_orders(w->machine, w->order_base, &machine, note);
     if (!status) status = hci_drive_read(w->drive, &drive, note);
     if (!status) status = hci_drive_facts_of(&drive, &machine, w->speed_rad_per_s, facts, note);
-    if (!status) cli_remark_drive(&drive);
+    if (!status) cli_remark_drive(&drive, &machine, w->machine);
     hci_drive_release(&drive);
     hci_machine_release(&machine);
     return status;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "cli/terminal/say.h"
+#include "hci/host/drive/drive_facts.h"
 
 hci_status cli_reading_take(const cli_arguments *a, bool strict, const char *angle_offset,
                             cli_reading *reading, hci_note *note)
@@ -112,9 +113,18 @@ void cli_remark_each(const hci_note *(*remark)(const void *context, size_t k), c
         cli_remarks_group(&all, say_each, &all);
 }
 
-void cli_remark_drive(const hci_drive_data *drive)
+void cli_remark_drive(const hci_drive_data *drive, const hci_machine_data *machine, const char *folder)
+{
+    hci_note decoupling = {{0}}, saliency = {{0}};
+    hci_drive_remark(drive, &decoupling);
+    cli_remark(&decoupling);
+    hci_drive_remark_saliency(drive, machine, folder, &saliency);
+    cli_remark(&saliency);
+}
+
+void cli_remark_response(const hci_drive_data *drive, const hci_machine_data *machine)
 {
     hci_note remark = {{0}};
-    hci_drive_remark(drive, &remark);
+    hci_drive_remark_response(drive, machine, &remark);
     cli_remark(&remark);
 }

@@ -39,7 +39,11 @@ void cli_remarks_group(const cli_remarks *all,
 void cli_remark_each(const hci_note *(*remark)(const void *context, size_t k), const void *context,
                      size_t count);
 
-/* What was taken for what drive.csv does not say. */
-void cli_remark_drive(const hci_drive_data *drive);
+/* What was taken for what drive.csv does not say, and that L_d and L_q of the drive differ, which currents do
+ * not count on. folder: of the machine. */
+void cli_remark_drive(const hci_drive_data *drive, const hci_machine_data *machine, const char *folder);
+
+/* That loop.csv is not what the gains make. */
+void cli_remark_response(const hci_drive_data *drive, const hci_machine_data *machine);
 
 #endif

@@ -180,8 +180,9 @@ void cli_show_diagnosis(const hci_diagnosis *d, const hci_resolution *r, const c
     static const char *const TONES[] = {CLI_GOOD, CLI_GOOD, CLI_WARN, CLI_WARN, CLI_BAD};
     char words[2048];
     hci_diagnosis_words(d, words, sizeof words);
-    cli_say("diagnosed: %s, %s: %s%s%s" CLI_PLAIN "\n", machine, runs, TONES[d->verdict],
-            hci_diagnosis_verdict_name(d->verdict),
+    cli_say("diagnosed: %s, %s: %s%s%s%s" CLI_PLAIN "\n", machine, runs,
+            d->odd.file ? CLI_WARN : TONES[d->verdict], hci_diagnosis_verdict_name(d->verdict),
+            d->odd.file ? " without one recording that disagrees" : "",
             d->search == HCI_WORK_COMPLETE ? "" : " as far as was looked");
     cli_say_paragraph(2, words);
     for (size_t k = 0; k < d->findings; ++k)

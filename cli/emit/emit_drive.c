@@ -53,7 +53,8 @@ int cli_emit_for_drive(const cli_arguments *a)
     hci_status status = read_drive_inputs(a, &in, &note);
     if (!status) status = hci_emit_loop(folder, &in.request, &result, &note);
     if (!status && cli_is_wordy()) cli_show_loop(&in.request, &result, folder);
-    if (!status) cli_remark_drive(&in.drive);
+    if (!status) cli_remark_drive(&in.drive, &in.machine, a->value[EMIT_MACHINE]);
+    if (!status) cli_remark_response(&in.drive, &in.machine);
     if (!status) cli_emit_remark(a, &in.machine);
     if (!status) cli_emit_remark_zero(a);
     if (!status && cli_emit_wants_json(a))

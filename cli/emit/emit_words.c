@@ -74,7 +74,23 @@ void cli_show_table(const hci_emit_request *r, const hci_emit_result *result, co
 static void show_speed(const char *what, double speed_rad_per_s)
 {
     if (isfinite(speed_rad_per_s))
-        cli_say("  %s all orders up to %.4g rpm\n", what, speed_rad_per_s * 30.0 / HCI_PI);
+        cli_say("  %s all orders up to %.6g rpm\n", what,
+                floor(speed_rad_per_s * 30.0 / HCI_PI * (1.0 + 1e-6)));
+}
+
+#define KNOWN_PERCENT 0.001 /* below it figures are not told apart */
+
+/* What the points of loop.csv leave open, as far as they tell. */
+static void show_response(const hci_emit_loop_result *result)
+{
+    if (!isfinite(result->response_error)) return;
+    cli_say("               known to %.2g %% between its points",
+            fmax(KNOWN_PERCENT, 100.0 * result->response_error));
+    if (isfinite(result->response_ripple_percent) && result->response_rad_per_s > 0.0)
+        cli_say("; by that compensation can be off in T_ripple by %.2g %% at %.4g rpm",
+                fmax(KNOWN_PERCENT, result->response_ripple_percent),
+                result->response_rad_per_s * 30.0 / HCI_PI);
+    cli_say("\n");
 }
 
 void cli_show_loop(const hci_emit_loop_request *r, const hci_emit_loop_result *result, const char *folder)
@@ -84,6 +100,11 @@ void cli_show_loop(const hci_emit_loop_request *r, const hci_emit_loop_result *r
         "  orders       %zu up to %.4g, %zu level%s of torque from %.4g to %.4g N·m, %zu bytes of flash\n",
         result->orders, result->highest_order, result->levels, result->levels == 1 ? "" : "s",
         result->torque_low_Nm, result->torque_high_Nm, result->flash_bytes);
+    if (result->levels == 1)
+        cli_say("  torque       %.4g N·m whatever is asked for, 0 and negative too; --per-torque, or several "
+                "levels, "
+                "follow what is asked for\n",
+                result->torque_low_Nm);
     cli_say("  table        %zu points, %zu times in %zu electrical turn%s; %zu bytes of RAM, %zu with "
             "feedforward\n",
             result->points, result->repeats, result->period_turns, result->period_turns == 1 ? "" : "s",
@@ -94,6 +115,7 @@ void cli_show_loop(const hci_emit_loop_request *r, const hci_emit_loop_result *r
     show_speed("voltage     ", result->voltage_rad_per_s);
     show_speed("sampling    ", result->sampled_rad_per_s);
     if (isfinite(result->measured_rad_per_s)) show_speed("loop.csv    ", result->measured_rad_per_s);
+    show_response(result);
     if (r->blob) cli_say("  blob         %s.bin, for hci/loop_blob.h\n", r->name);
     cli_say("  runtime      hci/loop.h and hci/table.h\n");
 }

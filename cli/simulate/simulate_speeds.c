@@ -58,7 +58,7 @@ static hci_status read_inputs(const cli_speeds_words *w, inputs *in, hci_note *n
     if (!status) status = hci_machine_read_orders(w->machine, w->order_base, &in->machine, note);
     if (!status) status = hci_effects_read_machine(w->machine, &in->effects, note);
     if (!status) status = hci_drive_read(w->drive, &in->drive, note);
-    if (!status) status = hci_loop_levels_read(w->table, w->table_count, false, &in->levels, note);
+    if (!status) status = hci_loop_levels_read(w->table, w->table_count, w->per_torque, &in->levels, note);
     return status;
 }
 
@@ -69,13 +69,19 @@ static double rpm(double rad_per_s)
     return rad_per_s * 30.0 / HCI_PI;
 }
 
+/* Per cent of a torque; of none, N·m. */
+static double shown_ripple(const hci_speeds *s, const hci_speed_result *x, bool worst)
+{
+    if (worst) return x->worst_T_ripple_percent;
+    return s->torque_Nm != 0.0 ? x->T_ripple_percent : x->ripple_Nm;
+}
+
 static void show_rows(const hci_speeds *s, bool worst)
 {
     for (size_t k = 0; k < s->count; ++k) {
         cli_say("  %7.5g rpm ", rpm(s->row[k].speed_rad_per_s));
         for (int r = 0; r < HCI_REMEDIES; ++r)
-            cli_say(" %12.4g", worst ? s->row[k].remedy[r].worst_T_ripple_percent
-                                     : s->row[k].remedy[r].T_ripple_percent);
+            cli_say(" %12.4g", shown_ripple(s, &s->row[k].remedy[r], worst));
         if (worst)
             cli_say("\n");
         else
@@ -86,7 +92,22 @@ static void show_rows(const hci_speeds *s, bool worst)
 static void show_limit(const char *what, double speed_rad_per_s)
 {
     if (isfinite(speed_rad_per_s))
-        cli_say("  %s does for all orders up to %.4g rpm\n", what, rpm(speed_rad_per_s));
+        cli_say("  %s does for all orders up to %.6g rpm\n", what,
+                floor(rpm(speed_rad_per_s) * (1.0 + 1e-6)));
+}
+
+#define KNOWN_PERCENT 0.001 /* below it figures are not told apart */
+
+/* What the points of loop.csv leave open, as far as they tell. */
+static void show_response(const hci_speeds *s)
+{
+    if (!isfinite(s->response_error)) return;
+    cli_say("  loop.csv is known to %.2g %% between its points",
+            fmax(KNOWN_PERCENT, 100.0 * s->response_error));
+    for (size_t k = 0; k < s->count && s->torque_Nm != 0.0; ++k)
+        cli_say("%s%.2g %% at %.4g rpm", k == 0 ? "; by that compensation can be off in T_ripple by " : ", ",
+                fmax(KNOWN_PERCENT, s->row[k].response_ripple_percent), rpm(s->row[k].speed_rad_per_s));
+    cli_say("\n");
 }
 
 /* A torque that is made but for this share is made. */
@@ -172,23 +193,40 @@ static void show_harm(const hci_speeds *s)
     show_not_compared(s);
 }
 
+/* What no control can make. */
+static void show_beyond(const hci_speeds *s)
+{
+    if (s->reached_V < 0.8 * s->dc_link_V)
+        cli_say("  dead time takes %.3g %% of the dc link; %.4g of %.4g V are left\n",
+                100.0 * (1.0 - s->reached_V / s->dc_link_V), s->reached_V, s->dc_link_V);
+    for (size_t k = 0; k < s->count; ++k)
+        if (s->row[k].back_emf_V > s->reached_V)
+            cli_say("  at %.4g rpm the back-EMF alone takes a dc link of %.4g V, of which there are %.4g: "
+                    "what flows is "
+                    "what it drives\n",
+                    rpm(s->row[k].speed_rad_per_s), s->row[k].back_emf_V, s->reached_V);
+}
+
 static void show(const hci_speeds *s, const cli_speeds_words *w)
 {
     cli_say(CLI_GOOD "simulated" CLI_PLAIN ": %s, %s, %.4g N·m\n", w->machine, w->drive, s->torque_Nm);
     cli_say("  lead         %.4g us; dc link %.4g V\n", 1e6 * s->lead_s, s->dc_link_V);
-    cli_say("\n  T_ripple in %%; needed: the dc link in V that the currents need as they are wanted\n");
+    cli_say("\n  %s; needed: the dc link in V that the currents need as they are wanted\n",
+            s->torque_Nm != 0.0 ? "T_ripple in %" : "swing of the torque, whose mean is to be 0, in N·m");
     cli_say("        speed         sine        table         lead compensation  feedforward   needed\n");
     show_rows(s, false);
-    if (s->model_error > 0.0) {
+    if (s->model_error > 0.0 && s->torque_Nm != 0.0) {
         cli_say("\n  the same, the worst of machines whose R, L and flux are %.3g %% off\n",
                 100.0 * s->model_error);
         show_rows(s, true);
     }
     show_means(s);
     cli_say("\n");
+    show_beyond(s);
     show_limit("voltage ", s->voltage_rad_per_s);
     show_limit("sampling", s->sampled_rad_per_s);
     if (isfinite(s->measured_rad_per_s)) show_limit("loop.csv", s->measured_rad_per_s);
+    show_response(s);
     show_harm(s);
 }
 
@@ -213,7 +251,8 @@ static hci_status simulate(const cli_speeds_words *w, inputs *in, hci_note *note
     cli_progress_end();
     if (!status && w->out) status = hci_speeds_write(&speeds, w->report ? &sources : NULL, w->out, note);
     if (!status && cli_is_wordy()) show(&speeds, w);
-    if (!status) cli_remark_drive(&in->drive);
+    if (!status) cli_remark_drive(&in->drive, &in->machine, w->machine);
+    if (!status) cli_remark_response(&in->drive, &in->machine);
     for (size_t k = 0; k < w->table_count && !status; ++k) {
         hci_note remark = {{0}};
         hci_solution_remark(w->table[k], &in->machine, &remark);

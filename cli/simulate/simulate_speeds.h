@@ -17,6 +17,7 @@ typedef struct {
     double torque_Nm;     /* NAN: of the table's last level */
     double error_percent; /* 0: not asked */
     const char *out;      /* folder, or NULL */
+    bool per_torque;      /* levels −T and T of one folder */
     bool report, json;
     hci_order_base order_base; /* of the machine's tables */
 } cli_speeds_words;

@@ -168,34 +168,61 @@ static void say_offset(cli_tuning *t, const order_sum *sum, size_t count)
 /* Of the largest order, below which an order is no matter for the first line. */
 #define MUCH 0.1
 
-/* Once a mechanical turn: gravity on what is not balanced, as on an arm, is that and hardly a motor is. */
+/* Whether a sensor of the torque tells what is of the motor and what hangs on its shaft. */
+static bool has_sensor(const cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count; ++k)
+        if (t->runs.run[k].torque_source == HCI_TORQUE_MEASURED) return true;
+    return false;
+}
+
+/* Once a mechanical turn: gravity on what is not balanced, as on an arm, is that, and a crank twice. No slots
+ * and poles are. */
 static void say_once_a_turn(cli_tuning *t, const order_sum *sum, size_t count)
 {
-    const double order = 1.0 / t->declared.model.pole_pairs;
+    enum { MOST_A_TURN = 2 };
+    const double turn = 1.0 / t->declared.model.pole_pairs;
     double most_Nm = 0.0;
+    if (has_sensor(t)) return;
     for (size_t k = 0; k < count; ++k)
         most_Nm = fmax(most_Nm, hypot(sum[k].sine_Nm, sum[k].cosine_Nm));
-    for (size_t k = 0; k < count && order < 1.0; ++k) {
+    for (size_t k = 0; k < count; ++k) {
         const double amplitude_Nm = hypot(sum[k].sine_Nm, sum[k].cosine_Nm);
-        if (fabs(sum[k].order - order) > HCI_ORDER_TOLERANCE || amplitude_Nm < SURE * sum[k].std_error_Nm)
+        if (sum[k].order >= 1.0 || sum[k].order > MOST_A_TURN * turn + HCI_ORDER_TOLERANCE ||
+            amplitude_Nm < SURE * sum[k].std_error_Nm)
             continue;
-        if (amplitude_Nm > MUCH * most_Nm) t->once_a_turn_Nm = amplitude_Nm;
-        hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
-                       "Whether the %.3g N·m once a mechanical turn (order %.5g) are of the motor: a weight "
-                       "on an arm, or "
-                       "what is out of balance on a shaft that does not stand upright, makes them as well. "
-                       "The table takes "
-                       "them away as they are; without that load it would add them. Record again with "
-                       "nothing on the shaft, "
-                       "or with the shaft upright.",
-                       amplitude_Nm, order);
+        if (amplitude_Nm > MUCH * most_Nm) t->once_a_turn_Nm = fmax(t->once_a_turn_Nm, amplitude_Nm);
+        hci_tuning_say(
+            &t->tuning, HCI_TUNING_UNKNOWN,
+            "Whether the %.3g N·m of order %.5g, %.3g times a mechanical turn, are of the motor: a "
+            "weight on an arm, a crank, or what is out of balance on a shaft that does not stand "
+            "upright, makes them as well. The table takes them away as they are; without that load "
+            "it would add them. Record again with nothing on the shaft, or with the shaft upright.",
+            amplitude_Nm, sum[k].order, sum[k].order / turn);
     }
+}
+
+/* Slots that are not those of the motor: no order that they make is among the larger ones. */
+static void judge_slots(cli_tuning *t, const order_sum *sum, size_t count)
+{
+    const double slots = cli_tune_order_of_slots(t);
+    double most_Nm = 0.0, order = 0.0;
+    for (size_t k = 0; k < count; ++k)
+        if (hypot(sum[k].sine_Nm, sum[k].cosine_Nm) > most_Nm)
+            most_Nm = hypot(sum[k].sine_Nm, sum[k].cosine_Nm), order = sum[k].order;
+    for (size_t k = 0; k < count && slots > 0.0; ++k)
+        if (hypot(sum[k].sine_Nm, sum[k].cosine_Nm) > MUCH * most_Nm && sum[k].order > 0.5 * slots &&
+            fabs(remainder(sum[k].order, slots)) < HCI_ORDER_TOLERANCE)
+            return;
+    if (slots > 0.0 && order > 2.0) t->stranger_order = order;
 }
 
 static void say_cogging(cli_tuning *t)
 {
     static order_sum sum[MOST_ORDERS];
     const size_t count = sum_cogging(t, sum);
+    say_once_a_turn(t, sum, count);
+    judge_slots(t, sum, count);
     if (t->cogging.kept == 0) return;
     hci_tuning_say(&t->tuning, HCI_TUNING_FOUND,
                    "cogging torque and what else follows the angle alone, %zu "
@@ -213,7 +240,6 @@ static void say_cogging(cli_tuning *t)
                        hypot(o.sine_Nm, o.cosine_Nm), o.std_error_Nm);
     }
     say_offset(t, sum, count);
-    say_once_a_turn(t, sum, count);
     size_t from = 0;
     if (isfinite(t->cogging.friction_Nm) && !next_found(t, is_friction, &from))
         hci_tuning_say(&t->tuning, HCI_TUNING_FOUND,

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "cli/tune/tune_read.h"
+#include "cli/tune/tune_suspect.h"
 #include "hci/math/harmonic.h"
 
 /* A table over an angle whose zero is unknown cannot be played. */
@@ -100,6 +101,7 @@ static void judge_inertia(cli_tuning *t)
 static void judge_runs(cli_tuning *t)
 {
     judge_inertia(t);
+    cli_tune_suspect(t);
     t->has_standstill = all_stand_at_one(t);
     for (size_t k = 0; k < t->runs.count; ++k) {
         t->has_unsteady = t->has_unsteady || t->runs.run[k].is_unsteady;
@@ -124,14 +126,4 @@ hci_status cli_tune_leave_out(cli_tuning *t, hci_note *note)
     if (!status && t->runs.count > 0) choose_log(t);
     if (!status) judge_runs(t);
     return status;
-}
-
-bool cli_tune_is_typed(const cli_tuning *t)
-{
-    bool typed = false;
-    for (size_t k = 0; k < t->runs.count; ++k) {
-        if (t->runs.run[k].torque_source == HCI_TORQUE_MEASURED) return false;
-        typed = typed || t->runs.run[k].torque_is_typed;
-    }
-    return typed;
 }

@@ -10,6 +10,7 @@
 #include "cli/tune/tune_cover.h"
 #include "cli/tune/tune_options.h"
 #include "cli/tune/tune_read.h"
+#include "cli/tune/tune_suspect.h"
 #include "hci/host/currents/target.h"
 #include "hci/host/report/write.h"
 #include "hci/host/waveform/waveform.h"
@@ -20,7 +21,8 @@
 bool cli_tune_is_blocked(const cli_tuning *t)
 {
     return t->has_slip || t->has_misfit || t->has_unsteady || t->has_no_angle || t->has_alias ||
-           t->has_standstill || t->inertia_share > 0.0 || t->tells_no_order;
+           t->has_standstill || t->inertia_share > 0.0 || t->tells_no_order || t->jump_rad > 0.0 ||
+           t->is_not_followed;
 }
 
 /* ---- what is read ---- */
@@ -62,6 +64,8 @@ hci_status cli_tune_begin(const cli_arguments *a, cli_tuning *t, hci_note *note)
     if (a->given[TUNE_RUNS] && a->words != 1)
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
                             "tune: found %zu words, expected one machine beside --runs LIST", a->words);
+    status = cli_tune_claim_folder(t->out, note);
+    if (status) return status;
     cli_tune_note(t, "#!/bin/sh\n# What tune did, step by step, from the folder where it was called: sh "
                      "commands.sh NEW_FOLDER\n"
                      "set -eu\nOUT=${1:?give a new folder}\nmkdir -p \"$OUT\"\n");
@@ -106,12 +110,14 @@ static void say_run(cli_tuning *t, size_t k)
 {
     const hci_run *r = &t->runs.run[k];
     double most_A = 0.0;
-    char time[48] = "", cover[120], currents[48] = "no current";
+    char time[48] = "", cover[120], currents[80] = "no current";
     for (size_t n = 0; n < 3 * r->count; ++n)
         most_A = fmax(most_A, fabs(r->i_A[n]));
     if (r->time_s && r->count > 1)
         snprintf(time, sizeof time, ", %.4g s", r->time_s[r->count - 1] - r->time_s[0]);
-    if (most_A > 0.0) snprintf(currents, sizeof currents, "phase currents up to %.3g A", most_A);
+    if (most_A > 0.0)
+        snprintf(currents, sizeof currents, "phase currents up to %.3g A%s", most_A,
+                 r->lacks_id ? ", i_d in no column and taken as 0" : "");
     cover_words(r, cover, sizeof cover);
     hci_tuning_say(&t->tuning, HCI_TUNING_READ, "%s: %zu samples%s%s; %s; %s%s", cli_tune_name_of(t, k),
                    r->count, time, cover, source_words(r), currents, r->v_V ? "; voltages" : "");
@@ -195,6 +201,11 @@ static const char *unit_of_ratio(const cli_tuning *t, const hci_check_evidence *
     return "";
 }
 
+static bool is_of_poles(const char *slip)
+{
+    return strncmp(slip, "pole", 4) == 0;
+}
+
 static void say_check(cli_tuning *t, const hci_check *c)
 {
     hci_tuning_say(&t->tuning, HCI_TUNING_READ, "conventions: %s (%zu relations checked)",
@@ -215,6 +226,7 @@ static void say_check(cli_tuning *t, const hci_check *c)
         if (is_found && !t->has_slip)
             snprintf(t->slip, sizeof t->slip, "Most likely %s (%.3g %%), so nothing was solved", f->words,
                      100.0 * f->probability);
+        if (is_found && !t->has_slip) t->slip_is_of_poles = is_of_poles(f->slip);
         t->has_slip = t->has_slip || is_found;
     }
 }
@@ -243,7 +255,7 @@ static bool counts_pole_pairs(const hci_check *c)
 /* Where it is certain that something is read wrongly, and not what. */
 static void judge_ambiguous(cli_tuning *t, const hci_check *c)
 {
-    if (t->has_slip || c->verdict != HCI_CHECK_AMBIGUOUS ||
+    if (t->has_slip || cli_tune_is_typed(t) || c->verdict != HCI_CHECK_AMBIGUOUS ||
         c->probability_as_declared > 1.0 - HCI_CHECK_FOUND)
         return;
     t->has_slip = true;

@@ -49,6 +49,13 @@ typedef struct {
         inertia_share; /* of the recording where it is largest, as in hci_run; 0: the inertia is believable */
     bool has_standstill;   /* the angle changes in none of the recordings */
     double once_a_turn_Nm; /* cogging torque of once a turn that a load on the shaft may make; 0: none */
+    double
+        jump_rad; /* electrical, by which the angle of a recording jumps and stands between; 0: none does */
+    double angle_to_speed; /* is_not_followed: the way of the angle to that of the speed */
+    bool slip_is_of_poles; /* has_slip: of the number of pole pairs */
+    bool is_not_followed;  /* the angle of a recording does not go where its speed leads */
+    double stranger_order; /* the largest of the cogging torque found, where slots and poles make another one
+                            * that was not found; 0: none */
     bool has_doubt;        /* check does not understand something else */
     bool has_alias; /* samples lie too far apart for the order of slots and poles, which shows as another one
                      */

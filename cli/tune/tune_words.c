@@ -9,6 +9,7 @@
 #include "cli/terminal/text.h"
 #include "cli/tune/tune_cover.h"
 #include "cli/tune/tune_options.h"
+#include "cli/tune/tune_suspect.h"
 #include "cli/tune/tune_waveforms.h"
 
 /* Times the noise that a ripple may have without being looked at. */
@@ -281,6 +282,17 @@ static void say_next_turn(cli_tuning *t)
     hci_tuning *r = &t->tuning;
     if (t->has_no_angle)
         say_next_angle(t);
+    else if (t->jump_rad > 0.0)
+        hci_tuning_say(
+            r, HCI_TUNING_NEXT,
+            "Log an angle that does not jump: of an encoder, or what the drive makes of its Hall "
+            "sensors or its observer between them, and say what it is: --column theta_e_deg=COLUMN "
+            "for electrical degrees. Where the shaft turns steadily, a line through the instants of "
+            "the jumps is such an angle.");
+    else if (t->is_not_followed)
+        hci_tuning_say(r, HCI_TUNING_NEXT,
+                       "Look which columns were read as angle, speed and current, and say it by --column "
+                       "theta_m_rad=COLUMN, speed_rad_per_s=COLUMN and iq_A=COLUMN, in their units.");
     else if (t->inertia_share > 0.0)
         hci_tuning_say(r, HCI_TUNING_NEXT,
                        "Give --inertia in kg·m², or leave it out: turns forward and back tell whether it "
@@ -293,7 +305,9 @@ static void say_next_turn(cli_tuning *t)
         hci_tuning_say(
             r, HCI_TUNING_NEXT,
             "Turn the shaft evenly: a stiffer position control, or a lower speed with it; its speed "
-            "is to vary by less than 30 %% rms. Or move it in steps of half a degree or less, keep "
+            "is to vary by less than 30 %% rms. If it did turn evenly, its time stamps do not: rows are "
+            "missing, "
+            "or the stamps are rounded. Or move it in steps of half a degree or less, keep "
             "the samples at rest alone, and give them a column torque_Nm of 0.");
     else if (t->needs_inertia && !t->has_slip && !t->has_misfit)
         hci_tuning_say(
@@ -421,12 +435,43 @@ static void say_bound(const hci_expected_ripple *e, double before_Nm, double aft
                  before_Nm, becomes(before_Nm, after_Nm), after_Nm, e->peak_to_peak_Nm);
 }
 
+/* The largest torque that a recording shows by a sensor, by an acceleration or by its currents. */
+static double largest_recorded_Nm(const cli_tuning *t)
+{
+    double most_Nm = 0.0;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        for (size_t n = 0; n < r->count && r->torque_Nm; ++n)
+            most_Nm = fmax(most_Nm, fabs(r->torque_Nm[n]));
+        for (size_t n = 0; n < 3 * r->count; ++n)
+            most_Nm = fmax(most_Nm, fabs(r->i_A[n]) * t->reading.run.torque_constant_Nm_per_A);
+    }
+    return most_Nm;
+}
+
+/* Times what was recorded and what is wanted, beyond which a ripple was not seen but made by the model. */
+#define NEVER_SEEN 10.0
+
+static bool is_never_seen(const cli_tuning *t)
+{
+    double before_Nm, after_Nm;
+    if (!t->is_solved || t->runs.count == 0) return false;
+    hci_tuning_swing(&t->solution, &before_Nm, &after_Nm);
+    return before_Nm > NEVER_SEEN * (largest_recorded_Nm(t) + t->mean_Nm);
+}
+
 static void say_fall(cli_tuning *t, char *text, size_t size)
 {
     const hci_expected_ripple *e = &t->solution.expected;
     double before_Nm, after_Nm;
     swing_of(t, &before_Nm, &after_Nm);
-    if (hci_expected_ripple_is_doubtful(e))
+    if (is_never_seen(t))
+        snprintf(
+            text, size,
+            "The model has a ripple of %.3g N·m, and no recording shows more torque than %.3g N·m: it is not "
+            "believable, and the table is not to be used",
+            before_Nm, largest_recorded_Nm(t));
+    else if (hci_expected_ripple_is_doubtful(e))
         snprintf(text, size, "%s, so what the table leaves of a ripple of %.3g N·m is not to be relied on",
                  isfinite(e->unbelievable_order) ? "A back-EMF that is not believable is in the model"
                  : t->diagnosis.verdict < HCI_DIAGNOSIS_PARTLY
@@ -515,11 +560,13 @@ static bool is_far_beyond(const cli_tuning *t)
     return t->is_solved && most_A > 0.0 && t->solution.peak_phase_current_A > FAR_BEYOND * most_A;
 }
 
-/* A table with which the known ripple is not smaller in the very model that it was solved for. */
+/* A table with which the known ripple is not smaller in the very model that it was solved for, or which takes
+ * none away since none was found. */
 static bool is_of_no_use(const cli_tuning *t)
 {
     double before_Nm, after_Nm;
-    if (!t->is_solved || !hci_tuning_knows_ripple(&t->solution)) return false;
+    if (!t->is_solved) return false;
+    if (!hci_tuning_knows_ripple(&t->solution)) return !t->has_emf;
     swing_of(t, &before_Nm, &after_Nm);
     return before_Nm >= t->solution.tolerance_Nm && after_Nm >= before_Nm;
 }
@@ -540,6 +587,15 @@ static void append(cli_tuning *t, const char *format, ...)
 /* What the table needs of the drive, and does not do. */
 static void append_of_table(cli_tuning *t)
 {
+    if (t->once_a_turn_Nm > 0.0 && t->is_solved)
+        append(
+            t,
+            "; %.3g N·m of it come once or twice a turn, and a load on the shaft makes that as well as the "
+            "motor: without that load the table adds them",
+            t->once_a_turn_Nm);
+    if (cli_tune_clipped(t) > 0 && t->is_solved)
+        append(t, "; currents in %zu of %zu logs are clipped, and what they tell is too small",
+               cli_tune_clipped(t), t->runs.count);
     if (t->is_solved && *t->solution.corrections)
         append(t, "; this once the drive's sensors, where they are those of the logs, are corrected: %s",
                t->solution.corrections);
@@ -557,9 +613,6 @@ static void append_of_table(cli_tuning *t)
 /* What the recordings do not tell of the torque. */
 static void append_of_torque(cli_tuning *t)
 {
-    if (t->once_a_turn_Nm > 0.0)
-        append(t, "; of it %.3g N·m once a turn may be of what hangs on the shaft, and not of the motor",
-               t->once_a_turn_Nm);
     if (reach_of_slopes(t) > 0.0)
         append(t, "; these recordings do not show cogging torque above order %.3g", reach_of_slopes(t));
     if (cli_tune_is_short(t) && t->is_solved)
@@ -582,6 +635,12 @@ static void append_of_machine(cli_tuning *t)
         append(t, "; the measured back-EMF is %.3g times that of the data sheet", t->emf_to_sheet);
     if (t->left_out > 0) append(t, "; %zu of %zu logs left out", t->left_out, t->left_out + t->kept.words);
     if (t->has_doubt && !is_off_sheet(t)) append(t, "; check does not understand all that the logs say");
+    if (t->stranger_order > 0.0)
+        append(t,
+               "; the largest order found, %.5g, is none that %.0f slots and %d poles make: %.5g and its "
+               "multiples",
+               t->stranger_order, t->declared.slots, 2 * t->declared.model.pole_pairs,
+               cli_tune_order_of_slots(t));
     if (misses_slots(t))
         append(t, "; order %.5g, which slots and poles make, was not looked at", cli_tune_order_of_slots(t));
 }
@@ -591,6 +650,13 @@ static void add_to_heading(cli_tuning *t)
     append_of_table(t);
     append_of_torque(t);
     append_of_machine(t);
+}
+
+static bool has_rough_clock(const cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count; ++k)
+        if (t->runs.run[k].is_unsteady && t->runs.run[k].rough_clock) return true;
+    return false;
 }
 
 /* Of logs that no currents were solved for. */
@@ -607,7 +673,11 @@ static const char *why_not_solved(const cli_tuning *t)
            : t->has_no_angle
                ? "The log has no angle of the rotor, and a table over one whose zero nobody knows "
                  "cannot be played, so nothing was solved"
-           : t->has_slip     ? t->slip
+           : t->has_slip ? t->slip
+           : t->has_unsteady && has_rough_clock(t)
+               ? "The shaft turns in jerks, or the time stamps come in jerks (rows are missing, or the "
+                 "stamps are "
+                 "rounded), and its current does not tell its cogging torque then, so nothing was solved"
            : t->has_unsteady ? "The current of a shaft that turns in jerks does not tell its cogging torque, "
                                "so nothing was "
                                "solved"
@@ -637,10 +707,44 @@ static void say_inertia(cli_tuning *t)
         GRAM_CM2 * inertia_kgm2);
 }
 
+static void say_jumps(cli_tuning *t)
+{
+    const double degrees = t->jump_rad * 180.0 / HCI_PI;
+    snprintf(
+        t->tuning.heading, sizeof t->tuning.heading,
+        "The angle stands and jumps by %.3g electrical degrees, as Hall sensors have it (60 where it is an "
+        "electrical one, here read with %d pole pairs), which tells no order of a ripple, so nothing was "
+        "solved",
+        degrees, t->declared.model.pole_pairs);
+}
+
+/* A whole number of turns, or one over it, is a gear's. */
+static void say_elsewhere(cli_tuning *t)
+{
+    const double ratio = t->angle_to_speed, gear = fmax(ratio, 1.0 / ratio);
+    char words[96] = "two of them exchanged?";
+    if (ratio > 0.0 && gear > 1.5 && fabs(gear - round(gear)) < 0.03 * gear && gear < 1000.0)
+        snprintf(words, sizeof words, "one of a shaft behind a gear of %.0f, or an electrical one?",
+                 round(gear));
+    snprintf(
+        t->tuning.heading, sizeof t->tuning.heading,
+        "The angle does not go where the speed leads, but %.3g times as far: one of the two columns is of "
+        "something else (%s), so nothing was solved",
+        ratio, words);
+}
+
 static void say_why_not_solved(cli_tuning *t)
 {
     hci_tuning *r = &t->tuning;
     const char *column = lacks_torque(t) ? torque_like(t) : NULL;
+    if (t->jump_rad > 0.0) {
+        say_jumps(t);
+        return;
+    }
+    if (t->is_not_followed && !t->has_misfit && (!t->has_slip || t->slip_is_of_poles)) {
+        say_elsewhere(t);
+        return;
+    }
     if (t->inertia_share > 0.0 && !t->has_slip && !t->has_misfit) {
         say_inertia(t);
         return;
@@ -654,8 +758,9 @@ static void say_why_not_solved(cli_tuning *t)
 static const char *verdict_of(const cli_tuning *t)
 {
     return t->tuning.good                                  ? "tuned"
+           : t->jump_rad > 0.0                             ? "not enough in the logs"
            : t->has_slip                                   ? "a convention is broken"
-           : t->has_misfit                                 ? "the conventions are not understood"
+           : t->has_misfit || t->is_not_followed           ? "the conventions are not understood"
            : t->has_no_angle                               ? "not enough in the logs"
            : t->has_unsteady                               ? "the shaft sticks and slips"
            : t->has_alias                                  ? "the samples lie too far apart"
@@ -663,7 +768,7 @@ static const char *verdict_of(const cli_tuning *t)
            : t->has_standstill                             ? "not enough in the logs"
            : !t->is_emitted                                ? "not enough in the logs"
            : t->tuning.solved                              ? "tuned, but not as wanted"
-           : is_of_no_use(t)                               ? "a table of no use"
+           : is_of_no_use(t) || is_never_seen(t)           ? "a table of no use"
            : t->diagnosis.verdict == HCI_DIAGNOSIS_UNKNOWN ? "tuned with what is certain"
                                                            : "tuned, with something left open";
 }
@@ -677,7 +782,8 @@ void cli_tune_conclude(cli_tuning *t)
     if (hangs_on_lag(t)) say_lag(t);
     say_next(t);
     r->good = t->is_emitted && !t->diagnosed && !r->solved && !t->has_doubt && !is_of_no_use(t) &&
-              !cli_tune_is_short(t);
+              !cli_tune_is_short(t) && !(t->once_a_turn_Nm > 0.0) && !is_far_beyond(t) &&
+              cli_tune_clipped(t) == 0 && !is_never_seen(t) && !misses_torque(t);
     snprintf(r->verdict, sizeof r->verdict, "%s", verdict_of(t));
     if (t->is_solved)
         set_heading(t);

@@ -40,8 +40,9 @@ typedef struct {
     hci_loop_pair own_Vs[2];     /* what the drive's own decoupling adds at i*, by ω */
 } hci_loop_wave;
 
-/* Measured answers of a loop at one frequency: (1/G − F)/(R + jνL), F the filter of the measured current:
- * what is to be asked for on top of F i* for each volt that it lacks. */
+/* Measured answers of a loop at one frequency: 1/(C H) = (1/G − F)/(R + jνL) up to the ripple between
+ * samples, F the filter of the measured current: what is to be asked for on top of F i* for each volt that it
+ * lacks. */
 typedef struct {
     float frequency_rad_per_s; /* ascending, > 0 */
     float re[2], im[2];        /* d and q, A/V */
@@ -68,17 +69,18 @@ typedef struct {
     uint32_t period_turns;              /* electrical turns in 2^32 of angle */
     float base_order;                   /* electrical order of the multiple 1: repeats/period_turns */
     float torque_low_Nm;                /* of the first level */
-    float torque_high_Nm;               /* of the last level; what is outside is clamped */
-    float resistance_ohm;               /* of a phase */
-    float inductance_H[2];              /* L_d, L_q */
-    float proportional_ohm[2];          /* k_p of d and q */
-    float integral_ohm_per_s[2];        /* k_i of both */
-    float filter;                       /* share of a new reading in what the PI sees; 0: no filter */
-    float sample_s;                     /* from one sample to the next */
-    float delay_s;                      /* from a sample to the middle of its voltage's use */
-    float whole_rad_per_s;              /* |ω| below which nothing fades */
-    float lead_s;                       /* delay of the loop at low frequency */
-    uint32_t crc32;                     /* of the waves */
+    float torque_high_Nm;        /* of the last level; what is outside is clamped, so one level is what it
+                                  * is whatever is asked for */
+    float resistance_ohm;        /* of a phase */
+    float inductance_H[2];       /* L_d, L_q */
+    float proportional_ohm[2];   /* k_p of d and q */
+    float integral_ohm_per_s[2]; /* k_i of both */
+    float filter;                /* share of a new reading in what the PI sees; 0: no filter */
+    float sample_s;              /* from one sample to the next */
+    float delay_s;               /* from a sample to the middle of its voltage's use */
+    float whole_rad_per_s;       /* |ω| below which nothing fades */
+    float lead_s;                /* delay of the loop at low frequency */
+    uint32_t crc32;              /* of the waves */
 } hci_loop_f32;
 
 /* What is done about the loop. */
@@ -240,10 +242,10 @@ static inline hci_loop_pair hci_loop_through_control(const hci_loop_f32 *loop, c
     return hci_loop_times(x, re * scale, im * scale);
 }
 
-/* The measured answer at a frequency: straight between its points, from 0 at a standstill, where the integral
- * of the drive sees to it, to the first one, and as at the last one above. */
-static inline hci_loop_pair hci_loop_through_response(const hci_loop_f32 *loop, float nu_rad_per_s, int axis,
-                                                      hci_loop_pair x)
+/* 1/(C H) as it was measured, at a frequency: straight between its points, from 0 at a standstill, where the
+ * integral of the drive sees to it, to the first one, and as at the last one above. */
+static inline hci_loop_pair hci_loop_measured(const hci_loop_f32 *loop, float nu_rad_per_s, int axis,
+                                              hci_loop_pair x)
 {
     const hci_loop_response *r = loop->responses;
     const float nu = hci_loop_size(nu_rad_per_s), sign = nu_rad_per_s < 0.0f ? -1.0f : 1.0f;
@@ -261,6 +263,15 @@ static inline hci_loop_pair hci_loop_through_response(const hci_loop_f32 *loop, 
                           sign * (r[k].im[axis] + way * (r[k + 1u].im[axis] - r[k].im[axis])));
 }
 
+/* 1/C of a measured loop: its hold, which the voltage x has been through backwards, taken out again. */
+static inline hci_loop_pair hci_loop_through_response(const hci_loop_f32 *loop, const hci_loop_order *order,
+                                                      int axis, hci_loop_pair x)
+{
+    const float sinc = hci_loop_sinc(order->half);
+    x = hci_loop_times(x, sinc * order->ahead_re, -sinc * order->ahead_im);
+    return hci_loop_measured(loop, order->nu_rad_per_s, axis, x);
+}
+
 /* Reference current of one order and level with HCI_LOOP_COMPENSATION. */
 static inline void hci_loop_compensated(const hci_loop_f32 *loop, const hci_loop_order *order,
                                         const hci_loop_wave *wave, float speed_rad_per_s,
@@ -273,18 +284,11 @@ static inline void hci_loop_compensated(const hci_loop_f32 *loop, const hci_loop
                                   speed_rad_per_s, wave->voltage_Vs[a]);
     hci_loop_held(order, needed, held);
     for (a = 0; a < 2; ++a) {
-        if (loop->response_count > 0u) {
-            out[a] = hci_loop_times(wave->own_Vs[a], order->ahead_re, -order->ahead_im); /* it acts as late */
-            out[a] = hci_loop_through_response(loop, order->nu_rad_per_s, a,
-                                               hci_loop_plus(needed[a], -speed_rad_per_s, out[a]));
-            out[a] = hci_loop_plus(out[a], 1.0f,
-                                   hci_loop_times(wave->current_A[a], order->filter_re, order->filter_im));
-        } else {
-            out[a] = hci_loop_plus(hci_loop_times(held[a], order->ahead_re, order->ahead_im),
-                                   -speed_rad_per_s, wave->own_Vs[a]);
-            out[a] = hci_loop_plus(hci_loop_through_control(loop, order, a, out[a]), 1.0f,
-                                   hci_loop_sampled(loop, order, a, wave->current_A[a], needed[a]));
-        }
+        out[a] = hci_loop_plus(hci_loop_times(held[a], order->ahead_re, order->ahead_im), -speed_rad_per_s,
+                               wave->own_Vs[a]);
+        out[a] = loop->response_count > 0u ? hci_loop_through_response(loop, order, a, out[a])
+                                           : hci_loop_through_control(loop, order, a, out[a]);
+        out[a] = hci_loop_plus(out[a], 1.0f, hci_loop_sampled(loop, order, a, wave->current_A[a], needed[a]));
     }
 }
 
@@ -469,7 +473,14 @@ static inline hci_loop_mix hci_loop_parabola(uint32_t middle, float u)
     return mix;
 }
 
-/* A torque within that of the levels. NaN counts as none, or as what is nearest to none. */
+/* Whether a torque is a number, or none is among the levels, as which NaN counts. */
+static inline int hci_loop_is_asked(const hci_loop_f32 *loop, float torque_Nm)
+{
+    return (torque_Nm > 0.0f) || (torque_Nm <= 0.0f) ||
+           ((loop->torque_low_Nm <= 0.0f) && (loop->torque_high_Nm >= 0.0f));
+}
+
+/* A torque within that of the levels. NaN counts as none. */
 static inline float hci_loop_torque(const hci_loop_f32 *loop, float torque_Nm)
 {
     float t = 0.0f;
@@ -479,7 +490,8 @@ static inline float hci_loop_torque(const hci_loop_f32 *loop, float torque_Nm)
     return t;
 }
 
-/* Parabolas meet at levels, so that currents do not jump. */
+/* Parabolas meet at levels, so that currents do not jump. Where NaN is asked for and none is not among the
+ * levels, nothing is taken of any. */
 static inline hci_loop_mix hci_loop_mix_of(const hci_loop_f32 *loop, float torque_Nm)
 {
     const float range = loop->torque_high_Nm - loop->torque_low_Nm;
@@ -487,7 +499,8 @@ static inline hci_loop_mix hci_loop_mix_of(const hci_loop_f32 *loop, float torqu
     hci_loop_mix mix = {0u, 1u, {1.0f, 0.0f, 0.0f}};
     float x;
     uint32_t panel, middle;
-    if (last == 0u) return mix;
+    if (!hci_loop_is_asked(loop, torque_Nm)) mix.weight[0] = 0.0f;
+    if ((last == 0u) || !(mix.weight[0] > 0.0f)) return mix;
     x = (hci_loop_torque(loop, torque_Nm) - loop->torque_low_Nm) / range;
     if (last == 1u) {
         mix.count = 2u;

@@ -49,22 +49,28 @@ size_t hci_component_orders(const hci_wave *back_emf, size_t emf_count, hci_comp
 /* Largest number of entries of U, for allocating `row` and `value`. */
 size_t hci_system_capacity(size_t emf_count, size_t component_count);
 
+/* What mutual torque is made with, and at which orders it is compared. The arrays are borrowed. */
+typedef struct {
+    const hci_wave *back_emf; /* waves of e(θ)/Ω, V·s/rad mechanical */
+    size_t back_emf_count;    /* how many */
+    const double *order;      /* as hci_orders_sort leaves them */
+    size_t order_count;       /* how many */
+} hci_mutual_torque;
+
 /* U in compressed columns, rows ascending within a column, equal positions already summed. The pattern
  * depends only on orders and sequences, not on the values of the back-EMF, so it can be analysed once for
  * many machines.
  * column_start: out, 2·component_count + 1 entries; row, value: out, hci_system_capacity entries. Torque at
  * orders that are not compared is left out. O(nonzeros · log orders). */
-void hci_system_sparse(const hci_wave *back_emf, size_t emf_count, const hci_component *components,
-                       size_t component_count, const double *orders, size_t order_count,
-                       int64_t *column_start, int64_t *row, double *value);
+void hci_system_sparse(const hci_mutual_torque *torque, const hci_component *components,
+                       size_t component_count, int64_t *column_start, int64_t *row, double *value);
 
 /* The same U, dense and column-major: hci_orders_rows × 2·component_count doubles, all written. */
-void hci_system_dense(const hci_wave *back_emf, size_t emf_count, const hci_component *components,
-                      size_t component_count, const double *orders, size_t order_count, double *u);
+void hci_system_dense(const hci_mutual_torque *torque, const hci_component *components,
+                      size_t component_count, double *u);
 
 /* Spectrum of the mutual torque of given current waves, added to spectrum[order_count]. */
-void hci_system_add_torque(const hci_wave *back_emf, size_t emf_count, const hci_wave *currents,
-                           size_t current_count, const double *orders, size_t order_count,
+void hci_system_add_torque(const hci_mutual_torque *torque, const hci_wave *currents, size_t current_count,
                            hci_harmonic *spectrum);
 
 /* Coordinates (S_n, C_n), (C_0 at order 0) of a spectrum as a column. rows: out, hci_orders_rows entries. */

@@ -40,24 +40,29 @@ double hci_lu_condition(size_t n, const double *lu, const size_t *pivot, double 
 double hci_lu_refine(size_t n, const double *a, const double *lu, const size_t *pivot, const double *b,
                      double *x, double *work);
 
-/* Doubles of factor_work that hci_orthogonal_factor needs for an m×n matrix. */
+/* Doubles of workspace that hci_orthogonal_factor needs for an m×n matrix. */
 size_t hci_orthogonal_workspace(size_t m, size_t n);
 
-/* Complete orthogonal decomposition A P = Q [T 0; 0 0] Zᵀ of an m×n matrix: the least-squares solution of
- * least norm for every shape and rank.
- * a: in/out, m×n; column: out, n entries (column permutation); factor_work: hci_orthogonal_workspace(m, n)
- * doubles, kept with a for the solve. relative_tolerance: a column whose remaining norm is below it times the
- * largest first norm counts as dependent; 0 picks 2⁻⁵²·max(m, n). rank: out. condition: out, may be NULL:
- * |R_11|/|R_rr|, a cheap estimate (1 at rank 0). Elements near the ends of the range of a double are no
+/* A complete orthogonal decomposition, in arrays of the caller. */
+typedef struct {
+    size_t m, n;    /* rows and columns of A */
+    double *a;      /* m×n, column-major: in A, out the factors */
+    size_t *column; /* out, n entries: the permutation of the columns */
+    double *work;   /* hci_orthogonal_workspace(m, n) doubles, kept with a for the solve */
+    size_t rank;    /* out */
+} hci_orthogonal;
+
+/* A P = Q [T 0; 0 0] Zᵀ of an m×n matrix: the least-squares solution of least norm for every shape and rank.
+ * relative_tolerance: a column whose remaining norm is below it times the largest first norm counts as
+ * dependent; 0 picks 2⁻⁵²·max(m, n). condition: out, may be NULL: |R_11|/|R_rr|, a cheap estimate (1 at rank
+ * 0). Elements near the ends of the range of a double are no
  * danger: the factors are those of A times a power of two. HCI_ERROR_NOT_FINITE when a is not finite. O(m n
  * min(m, n)). */
-hci_status hci_orthogonal_factor(size_t m, size_t n, double *a, double relative_tolerance, size_t *column,
-                                 double *factor_work, size_t *rank, double *condition);
+hci_status hci_orthogonal_factor(hci_orthogonal *q, double relative_tolerance, double *condition);
 
 /* x: out, n entries: minimises ‖A x − b‖ and then ‖x‖. b: in, m entries, overwritten by Qᵀb.
  * work: n doubles. O(m n). */
-void hci_orthogonal_solve(size_t m, size_t n, const double *a, const size_t *column,
-                          const double *factor_work, size_t rank, double *b, double *x, double *work);
+void hci_orthogonal_solve(const hci_orthogonal *q, double *b, double *x, double *work);
 
 /* A = L Lᵀ of a symmetric positive definite n×n matrix in its lower triangle, in place; the upper is not
  * touched. HCI_ERROR_SINGULAR when it is not positive definite to working precision (a pivot below n·2⁻⁵² of

@@ -119,17 +119,18 @@ typedef struct {
 typedef void block_user(void *context, placed_block at);
 
 /* Calls `use` for every block that a component makes at a compared order. */
-static void place_blocks(const hci_wave *back_emf, size_t emf_count, hci_component component,
-                         const double *orders, size_t order_count, block_user *use, void *context)
+static void place_blocks(const hci_mutual_torque *torque, hci_component component, block_user *use,
+                         void *context)
 {
-    for (size_t k = 0; k < emf_count; ++k) {
+    for (size_t k = 0; k < torque->back_emf_count; ++k) {
         torque_block blocks[2];
-        const size_t found = pair_blocks(back_emf[k], component, blocks);
+        const size_t found = pair_blocks(torque->back_emf[k], component, blocks);
         for (size_t j = 0; j < found; ++j) {
-            const size_t at = hci_orders_find(orders, order_count, blocks[j].order);
-            if (at == order_count) continue;
-            use(context, (placed_block){&blocks[j], at, hci_orders_row(orders, order_count, at),
-                                        blocks[j].order < HCI_ORDER_TOLERANCE});
+            const size_t at = hci_orders_find(torque->order, torque->order_count, blocks[j].order);
+            if (at == torque->order_count) continue;
+            use(context,
+                (placed_block){&blocks[j], at, hci_orders_row(torque->order, torque->order_count, at),
+                               blocks[j].order < HCI_ORDER_TOLERANCE});
         }
     }
 }
@@ -167,15 +168,14 @@ static void add_to_column(void *context, placed_block at)
     column_add(c, at.row + !at.mean, c->of_cosine ? b->cosine_from_cosine : b->cosine_from_sine);
 }
 
-void hci_system_sparse(const hci_wave *back_emf, size_t emf_count, const hci_component *components,
-                       size_t component_count, const double *orders, size_t order_count,
-                       int64_t *column_start, int64_t *row, double *value)
+void hci_system_sparse(const hci_mutual_torque *torque, const hci_component *components,
+                       size_t component_count, int64_t *column_start, int64_t *row, double *value)
 {
     size_t nonzeros = 0;
     column_start[0] = 0;
     for (size_t j = 0; j < 2 * component_count; ++j) {
         column c = {row + nonzeros, value + nonzeros, 0, j % 2 == 1};
-        place_blocks(back_emf, emf_count, components[j / 2], orders, order_count, add_to_column, &c);
+        place_blocks(torque, components[j / 2], add_to_column, &c);
         nonzeros += c.count;
         column_start[j + 1] = (int64_t)nonzeros;
     }
@@ -198,15 +198,15 @@ static void add_to_pair(void *context, placed_block at)
     c->of_cosine[at.row + !at.mean] += b->cosine_from_cosine;
 }
 
-void hci_system_dense(const hci_wave *back_emf, size_t emf_count, const hci_component *components,
-                      size_t component_count, const double *orders, size_t order_count, double *u)
+void hci_system_dense(const hci_mutual_torque *torque, const hci_component *components,
+                      size_t component_count, double *u)
 {
-    const size_t rows = hci_orders_rows(orders, order_count);
+    const size_t rows = hci_orders_rows(torque->order, torque->order_count);
     for (size_t k = 0; k < rows * 2 * component_count; ++k)
         u[k] = 0.0;
     for (size_t c = 0; c < component_count; ++c) {
         column_pair pair = {u + 2 * c * rows, u + (2 * c + 1) * rows};
-        place_blocks(back_emf, emf_count, components[c], orders, order_count, add_to_pair, &pair);
+        place_blocks(torque, components[c], add_to_pair, &pair);
     }
 }
 
@@ -225,14 +225,13 @@ static void add_to_spectrum(void *context, placed_block at)
     t->spectrum[at.order_index].cosine += b->cosine_from_sine * s + b->cosine_from_cosine * c;
 }
 
-void hci_system_add_torque(const hci_wave *back_emf, size_t emf_count, const hci_wave *currents,
-                           size_t current_count, const double *orders, size_t order_count,
+void hci_system_add_torque(const hci_mutual_torque *torque, const hci_wave *currents, size_t current_count,
                            hci_harmonic *spectrum)
 {
     for (size_t k = 0; k < current_count; ++k) {
         const hci_component component = {currents[k].order, currents[k].sequence};
         torque_sum sum = {currents[k], spectrum};
-        place_blocks(back_emf, emf_count, component, orders, order_count, add_to_spectrum, &sum);
+        place_blocks(torque, component, add_to_spectrum, &sum);
     }
 }
 

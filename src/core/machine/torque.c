@@ -283,8 +283,9 @@ void hci_torque_spectrum(const hci_machine *machine, const hci_wave *currents, s
         const hci_harmonic *c = &machine->cogging[k];
         spectrum_add(orders, order_count, spectrum, c->order, (phasor){c->sine, c->cosine});
     }
-    hci_system_add_torque(machine->back_emf, machine->back_emf_count, currents, current_count, orders,
-                          order_count, spectrum);
+    hci_system_add_torque(
+        &(hci_mutual_torque){machine->back_emf, machine->back_emf_count, orders, order_count}, currents,
+        current_count, spectrum);
     for (size_t t = 0; t < machine->slope_count; ++t)
         for (size_t j = 0; j < current_count; ++j)
             for (size_t k = 0; k <= j; ++k)

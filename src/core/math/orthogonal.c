@@ -138,19 +138,20 @@ static void reduce_from_right(size_t m, size_t n, double *a, size_t r, layout w)
     }
 }
 
-hci_status hci_orthogonal_factor(size_t m, size_t n, double *a, double relative_tolerance, size_t *column,
-                                 double *factor_work, size_t *rank, double *condition)
+hci_status hci_orthogonal_factor(hci_orthogonal *q, double relative_tolerance, double *condition)
 {
-    const layout w = lay_out(m, n, factor_work);
+    const size_t m = q->m, n = q->n;
+    double *a = q->a;
+    const layout w = lay_out(m, n, q->work);
     const double rounding = (double)(m > n ? m : n) * DBL_EPSILON;
     if (!hci_vector_finite(m * n, a)) return HCI_ERROR_NOT_FINITE;
 
     *w.scale = scale_to_unity(m * n, a);
     const size_t r =
-        reduce_from_left(m, n, a, relative_tolerance > 0.0 ? relative_tolerance : rounding, column, w);
+        reduce_from_left(m, n, a, relative_tolerance > 0.0 ? relative_tolerance : rounding, q->column, w);
     if (condition) *condition = r > 0 ? fabs(a[0] / a[(r - 1) * (m + 1)]) : 1.0;
     reduce_from_right(m, n, a, r, w);
-    *rank = r;
+    q->rank = r;
     return HCI_OK;
 }
 
@@ -168,10 +169,10 @@ static void apply_z(size_t m, size_t n, const double *a, size_t r, const double 
     }
 }
 
-void hci_orthogonal_solve(size_t m, size_t n, const double *a, const size_t *column,
-                          const double *factor_work, size_t rank, double *b, double *x, double *work)
+void hci_orthogonal_solve(const hci_orthogonal *q, double *b, double *x, double *work)
 {
-    const double scale = factor_work[0], *tau_q = factor_work + 1, *tau_z = tau_q + smaller(m, n);
+    const size_t m = q->m, n = q->n, rank = q->rank;
+    const double *a = q->a, scale = q->work[0], *tau_q = q->work + 1, *tau_z = tau_q + smaller(m, n);
     for (size_t k = 0; k < rank; k++) /* b ← Qᵀb */
         hci_householder_apply(tau_q[k], m - k - 1, a + k * (m + 1) + 1, b + k, b + k + 1);
 
@@ -183,5 +184,5 @@ void hci_orthogonal_solve(size_t m, size_t n, const double *a, const size_t *col
     }
     apply_z(m, n, a, rank, tau_z, work);
     for (size_t k = 0; k < n; k++)
-        x[column[k]] = scale * work[k];
+        x[q->column[k]] = scale * work[k];
 }

@@ -4,12 +4,12 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-/* Negative: no limit. Written only while a test has set a limit, so threads may allocate freely without one.
- */
+/* Negative: no limit. Written only while a test has set a limit. */
 static long remaining = -1;
 static bool only_one_fails;
 
-/* An allocation has failed since it was last asked for. */
+/* An allocation has failed since it was last asked for. Written when one fails: as the state of the sparse
+ * solver, not safe for threads. */
 static bool short_of_memory;
 
 void hci_memory_fail_after(long count)

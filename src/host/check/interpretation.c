@@ -45,6 +45,27 @@ static const struct {
     {CHECK_EMF_TAKEN_PER_KRPM_LINE_RMS, HCI_SHEET_VOLT_LINE_RMS, true},
 };
 
+/* Peak of a phase by a value of another kind, or by one that was converted as if it were of another kind. */
+static double of_peak(int kind)
+{
+    switch (kind) {
+    case CHECK_EMF_RMS:
+        return SQRT2;
+    case CHECK_EMF_LINE:
+        return 1.0 / SQRT3;
+    case CHECK_EMF_LINE_RMS:
+        return SQRT2 / SQRT3;
+    case CHECK_EMF_TAKEN_FOR_RMS:
+        return 1.0 / SQRT2;
+    case CHECK_EMF_TAKEN_FOR_LINE:
+        return SQRT3;
+    case CHECK_EMF_TAKEN_FOR_LINE_RMS:
+        return SQRT3 / SQRT2;
+    default:
+        return 1.0;
+    }
+}
+
 /* k_e in V·s/rad, peak of a phase, of the number in the table. */
 static double emf_of(const check_data *data, const check_interpretation *as, double pole_pairs)
 {
@@ -58,9 +79,7 @@ static double emf_of(const check_data *data, const check_interpretation *as, dou
                                      : hci_sheet_emf(SHEET[k].sheet, a, 1);
     if (kind == CHECK_EMF_VOLT_PER_HZ) return a * pole_pairs / (2.0 * HCI_PI); /* ω_m = 2πf/p */
     if (kind == CHECK_EMF_FLUX_LINKAGE) return a * pole_pairs;
-    const double of_line = kind == CHECK_EMF_LINE || kind == CHECK_EMF_LINE_RMS ? SQRT3 : 1.0;
-    const double of_rms = kind == CHECK_EMF_RMS || kind == CHECK_EMF_LINE_RMS ? SQRT2 : 1.0;
-    return declared * of_rms / of_line;
+    return declared * of_peak(kind);
 }
 
 /* A sin(nθ' + γ) with θ' = θ − zero is A sin(nθ + γ − n zero); the largest row is order 1. */

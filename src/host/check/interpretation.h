@@ -13,6 +13,9 @@ enum {
     CHECK_EMF_RMS,
     CHECK_EMF_LINE,
     CHECK_EMF_LINE_RMS,
+    CHECK_EMF_TAKEN_FOR_RMS, /* a peak, or a value of a phase, that was converted as another one */
+    CHECK_EMF_TAKEN_FOR_LINE,
+    CHECK_EMF_TAKEN_FOR_LINE_RMS,
     CHECK_EMF_VOLT_PER_KRPM,
     CHECK_EMF_VOLT_PER_KRPM_LINE,
     CHECK_EMF_VOLT_PER_KRPM_LINE_RMS,

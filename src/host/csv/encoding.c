@@ -104,7 +104,7 @@ static size_t convert(hci_encoding encoding, const char *bytes, size_t size, cha
 
 char *hci_encoding_to_utf8(hci_encoding encoding, const char *bytes, size_t *size)
 {
-    char *out = hci_memory_malloc(3 * *size + 1);
+    char *out = hci_memory_new(*size + 1, 3);
     if (out != NULL) *size = convert(encoding, bytes, *size, out);
     return out;
 }

@@ -14,6 +14,7 @@
 #include "host/diagnose/held_out.h"
 #include "host/diagnose/next_points.h"
 #include "host/diagnose/no_load_denied.h"
+#include "host/diagnose/odd_run.h"
 #include "host/diagnose/open_voltage.h"
 #include "host/diagnose/prepare/swing_groups.h"
 #include "host/diagnose/run_errors.h"
@@ -23,6 +24,8 @@
 #include "host/machine/torque_constant.h"
 
 #define RESOLUTION 5e-4 /* of the largest rms torque */
+#define REPEATED   0.1  /* of the square of what is left beside noise, that may differ from turn to turn */
+#define DROWNED    0.25 /* of the torque of interest: noise beside which nothing is complete */
 #define AGAINST    0.05 /* of the torque per ampere, that voltages which agree to 2 % exclude */
 
 const char *hci_finding_verdict_name(hci_finding_verdict verdict)
@@ -82,6 +85,35 @@ static void zeros_fill(const hci_binned_samples *samples, hci_diagnosis *d)
     }
 }
 
+/* Whether a part of what is left, beside the noise between the orders, differs from turn to turn. Of too few
+ * turns to tell nothing is denied. */
+static bool is_unrepeated(const hci_diagnosis *d)
+{
+    double left = 0.0, apart = 0.0;
+    bool known = false;
+    for (size_t k = 0; k < d->runs; ++k) {
+        const hci_run_errors *e = &d->run[k];
+        if (e->role != HCI_ROLE_FIT || !isfinite(e->unrepeated_Nm)) continue;
+        known = true;
+        left += e->rms_after_Nm * e->rms_after_Nm - e->noise_floor_Nm * e->noise_floor_Nm;
+        apart += e->unrepeated_Nm * e->unrepeated_Nm;
+    }
+    return !known || apart > REPEATED * (left + apart);
+}
+
+/* The machine that each ambiguous effect would make of the recordings, where it is not the one that is
+ * written down. */
+static hci_alternatives alternatives_of(const hci_attribution *a)
+{
+    hci_alternatives x = {{NULL}, 0};
+    for (size_t r = 0; r < a->types && x.count < HCI_MOST_ALTERNATIVES; ++r) {
+        const hci_verdict *v = &a->verdict[r];
+        if (v->ambiguous && v->alternative.candidates.candidate)
+            x.machine[x.count++] = &v->alternative.candidates;
+    }
+    return x;
+}
+
 /* What no effect explains is described, and then leaves: it never gets into a machine. */
 static hci_status fill(hci_dataset *b, const hci_runs *runs, hci_attribution *a, hci_diagnosis *d,
                        hci_note *note)
@@ -96,15 +128,17 @@ static hci_status fill(hci_dataset *b, const hci_runs *runs, hci_attribution *a,
     zeros_fill(&b->samples, d);
     hci_unexplained_fill(b, a, d);
     hci_candidates_remove_type(&a->model.candidates, &hci_empirical_type);
+    const hci_alternatives others = alternatives_of(a);
     hci_status status = effects_fill(&b->regression, &a->model.candidates, d, note);
     if (!status && !a->unknown && a->ended == HCI_WORK_COMPLETE) /* of a model that had no rival: no bound */
-        status = hci_uncertainty_find(&b->regression, &a->model.candidates, &d->uncertainty, note);
+        status = hci_uncertainty_find(&b->regression, &a->model.candidates, &others, &d->uncertainty, note);
     if (status == HCI_ERROR_STOPPED) { /* all else is known */
         d->search = a->ended = HCI_WORK_INTERRUPTED;
         status = HCI_OK;
     }
     if (!status) status = hci_run_errors_fill(b, runs, a->model.fit.parameters, d, note);
     if (!status) hci_findings_fill(a, d);
+    d->wanders = d->wanders && is_unrepeated(d);
     return status;
 }
 
@@ -304,6 +338,29 @@ static double beyond_voltages(const hci_dataset *b, const hci_machine_data *mach
     return fabs(shown) > 0.0 ? corrected / shown - 1.0 : 0.0;
 }
 
+/* What is well above the noise is not complete, whatever the search said of it. */
+static hci_status much_is_unknown(hci_dataset *b, const hci_runs *runs, double resolution_Nm,
+                                  hci_attribution *a, hci_diagnosis *d, hci_note *note)
+{
+    if (d->verdict != HCI_DIAGNOSIS_COMPLETE || !hci_held_out_leaves_much(d, resolution_Nm)) return HCI_OK;
+    const hci_status status = refill(b, runs, a, d, note);
+    d->contradicted = false;
+    return status;
+}
+
+/* Beside a noise as large as the torque that matters nothing is complete: what is small does not show. */
+static void drowned_judge(const hci_dataset *b, const hci_machine_data *machine, hci_diagnosis *d)
+{
+    const double constant = fabs(b->regression.declared_constant);
+    const double made_Nm = constant * hci_dataset_range_of(b).current_A;
+    const double wanted_Nm = machine->rated_torque_Nm > 0.0 ? machine->rated_torque_Nm : made_Nm;
+    if (d->verdict != HCI_DIAGNOSIS_COMPLETE || !(d->noise_Nm > DROWNED * wanted_Nm) || !(wanted_Nm > 0.0))
+        return;
+    d->verdict = HCI_DIAGNOSIS_UNKNOWN;
+    d->drowned_Nm = wanted_Nm;
+    hci_uncertainty_release(&d->uncertainty);
+}
+
 /* What stays and what goes once the search has answered: d is what is said of it. */
 static hci_status conclude(hci_dataset *b, const hci_machine_data *machine, const hci_runs *runs,
                            double resolution_Nm, hci_attribution *a, hci_diagnosis *d, hci_note *note)
@@ -359,6 +416,8 @@ static hci_status diagnose(hci_dataset *b, const hci_machine_data *machine, cons
     if (!status) status = hci_next_points_tell_apart(&b->regression, machine, &a, d, note);
     if (!status) status = fill(b, runs, &a, d, note);
     if (!status) status = conclude(b, machine, runs, how.resolution_Nm, &a, d, note);
+    if (!status) status = much_is_unknown(b, runs, how.resolution_Nm, &a, d, note);
+    if (!status) drowned_judge(b, machine, d);
     if (!status) loose_swings_judge(d);
     if (!status && !a.not_searched) status = hci_next_points_unknown(&b->regression, machine, d, note);
     if (!status && !a.not_searched) status = hci_next_points_left_open(&b->regression, machine, d, note);
@@ -452,26 +511,103 @@ static hci_status diagnose_measured(const hci_machine_data *machine, const hci_e
     return status;
 }
 
-hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *declared, const hci_runs *runs,
-                        const hci_diagnose_options *options, hci_diagnosis *diagnosis, hci_note *note)
+/* All but what a run that disagrees with the others says. */
+static hci_status diagnose_all(const hci_machine_data *machine, const hci_effects *declared,
+                               const hci_runs *runs, const hci_diagnose_options *options,
+                               hci_diagnosis *diagnosis, hci_note *note)
 {
-    size_t usable = 0, fitted = 0;
-    memset(diagnosis, 0, sizeof *diagnosis);
-    for (size_t k = 0; k < runs->count; ++k) {
-        usable += is_usable(runs, k);
-        fitted += runs->role[k] == HCI_ROLE_FIT;
-    }
-    if (fitted == 0)
-        return hci_note_set(note, HCI_ERROR_INPUT, "no run has the role `fit`; give it to at least one");
-    const hci_status status = usable > 0
-                                  ? diagnose_measured(machine, declared, runs, options, diagnosis, note)
-                                  : nothing_measured(declared, diagnosis, note);
+    bool usable = false;
+    for (size_t k = 0; k < runs->count; ++k)
+        usable = usable || is_usable(runs, k);
+    const hci_status status = usable ? diagnose_measured(machine, declared, runs, options, diagnosis, note)
+                                     : nothing_measured(declared, diagnosis, note);
     if (status > HCI_NOT_REACHED) return status;
     diagnosis->open_voltage_off = hci_open_voltage_off(&machine->model, runs);
     if (diagnosis->open_voltage_off > HCI_OPEN_VOLTAGE_OFF && diagnosis->verdict == HCI_DIAGNOSIS_COMPLETE)
         diagnosis->verdict = HCI_DIAGNOSIS_UNKNOWN;
+    return HCI_OK;
+}
+
+/* ---- one run that disagrees ---- */
+
+/* The runs without one, which stay those of `runs`. rest: arrays to be freed. Index of that one. */
+static hci_status take_out(const hci_runs *runs, const char *file, hci_runs *rest, size_t *index,
+                           hci_note *note)
+{
+    *rest = (hci_runs){.run = hci_memory_new(runs->count + 1, sizeof *rest->run),
+                       .role = hci_memory_new(runs->count + 1, sizeof *rest->role),
+                       .list = runs->list};
+    for (size_t k = 0; rest->run && rest->role && k < runs->count; ++k) {
+        if (runs->run[k].name == file) {
+            *index = k;
+            continue;
+        }
+        rest->run[rest->count] = runs->run[k];
+        rest->role[rest->count++] = runs->role[k];
+    }
+    return rest->run && rest->role ? HCI_OK : hci_note_memory(note, NULL, "the recordings");
+}
+
+/* Whether the others are understood, and this run is the one that disagrees with them then too. */
+static hci_status confirm(const hci_machine_data *machine, const hci_runs *runs, const hci_diagnosis *d,
+                          hci_odd_run *odd, bool *certain, hci_note *note)
+{
+    hci_odd_run again;
+    bool settled = false;
+    hci_status status = HCI_OK;
+    if (*certain) return HCI_OK;
+    if (d->search == HCI_WORK_COMPLETE && d->verdict <= HCI_DIAGNOSIS_AMBIGUOUS)
+        status = hci_odd_run_find(machine, &d->effects.list, runs, &again, &settled, note);
+    *certain = settled && again.file == odd->file;
+    if (*certain) *odd = again;
+    return status;
+}
+
+/* Of the others, where one disagrees; *certain: it does. */
+static hci_status diagnose_others(const hci_machine_data *machine, const hci_effects *declared,
+                                  const hci_runs *runs, const hci_diagnose_options *options, hci_odd_run *odd,
+                                  bool *certain, hci_diagnosis *d, hci_note *note)
+{
+    hci_runs rest;
+    size_t index = 0;
+    hci_status status = take_out(runs, odd->file, &rest, &index, note);
+    if (!status) status = diagnose_all(machine, declared, &rest, options, d, note);
+    if (!status) status = confirm(machine, runs, d, odd, certain, note);
+    if (!status && *certain) d->odd = *odd;
+    for (size_t k = 0; !status && k < d->lines; ++k)
+        d->line[k].run += d->line[k].run >= index;
+    if (status || !*certain) hci_diagnosis_release(d);
+    hci_memory_free(rest.run);
+    hci_memory_free(rest.role);
+    return status;
+}
+
+static hci_status diagnose_runs(const hci_machine_data *machine, const hci_effects *declared,
+                                const hci_runs *runs, const hci_diagnose_options *options, hci_diagnosis *d,
+                                hci_note *note)
+{
+    hci_odd_run odd;
+    bool certain = false;
+    hci_status status = hci_odd_run_find(machine, declared, runs, &odd, &certain, note);
+    if (!status && odd.file)
+        status = diagnose_others(machine, declared, runs, options, &odd, &certain, d, note);
+    return status || certain ? status : diagnose_all(machine, declared, runs, options, d, note);
+}
+
+hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *declared, const hci_runs *runs,
+                        const hci_diagnose_options *options, hci_diagnosis *diagnosis, hci_note *note)
+{
+    size_t fitted = 0;
+    memset(diagnosis, 0, sizeof *diagnosis);
+    for (size_t k = 0; k < runs->count; ++k)
+        fitted += runs->role[k] == HCI_ROLE_FIT;
+    if (fitted == 0)
+        return hci_note_set(note, HCI_ERROR_INPUT, "no run has the role `fit`; give it to at least one");
+    const hci_status status = diagnose_runs(machine, declared, runs, options, diagnosis, note);
+    if (status) return status;
     origin_fill(diagnosis);
-    return diagnosis->verdict >= HCI_DIAGNOSIS_AMBIGUOUS || diagnosis->search != HCI_WORK_COMPLETE
+    return diagnosis->verdict >= HCI_DIAGNOSIS_AMBIGUOUS || diagnosis->search != HCI_WORK_COMPLETE ||
+                   diagnosis->odd.file
                ? HCI_NOT_REACHED
                : HCI_OK;
 }

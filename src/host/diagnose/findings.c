@@ -162,6 +162,7 @@ void hci_findings_fill(const hci_attribution *a, hci_diagnosis *d)
     }
     if (a->unknown) unknown_put(a, whole_Nm2, d);
     d->inertia_as_well = a->inertia_as_well;
+    d->sensors_as_well = a->sensors_as_well;
     d->magnetic_only = a->magnetic_only;
     d->verdict = verdict_of(a, d);
 }

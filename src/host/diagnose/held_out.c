@@ -10,10 +10,13 @@
 
 #define BEYOND        1.05 /* of the largest current and speed fitted: beyond it a run is no test */
 #define NOISY         1.5  /* error of a run held out, over its noise … */
+#define NEAR          1.2  /* … of a torque that was measured, where half of what is not noise is left */
 #define COARSE        4.0  /* … or over the resolution, that speaks against the effects … */
 #define HARDLY_BETTER 0.5  /* … unless it is less than this share of the error without them */
 #define NEARLY_ALL    0.1  /* share of an error that is next to nothing beside what it was */
 #define RIPPLE        2.0  /* over the noise, which of slopes is known by half: a ripple that is there */
+#define MUCH          2.0  /* the same of all runs: the model is not complete … */
+#define MUCH_OF_ONE   4.0  /* … nor where one run leaves as much */
 #define MEAN_LEFT     0.5  /* of the noise of a sample, that the mean of a run may be off */
 #define RIPPLE_LEFT   0.3  /* share of the error of a fitted run that a ripple beside its noise is of */
 #define HELPS         1.05 /* of the error held out, without an effect that lowers it */
@@ -37,8 +40,16 @@ static bool is_within(const hci_run_statistics *f, const hci_dataset *b)
 /* Errors of the runs held out that a fit could describe, as mean squares over runs. */
 typedef struct {
     double before, after;
-    double allowed; /* what noise and resolution may leave */
+    double allowed;                             /* what noise and resolution may leave */
+    double told_before, told_after, told_noise; /* of runs whose noise is well known: measured torques */
 } test_errors;
+
+static void told_add(const hci_run_errors *e, double resolution_Nm, test_errors *x)
+{
+    x->told_before += e->rms_before_Nm * e->rms_before_Nm;
+    x->told_after += e->rms_after_Nm * e->rms_after_Nm;
+    x->told_noise += fmax(pow(e->noise_floor_Nm, 2.0), pow(COARSE / NOISY * resolution_Nm, 2.0));
+}
 
 static test_errors test_errors_of(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d,
                                   double resolution_Nm)
@@ -52,6 +63,7 @@ static test_errors test_errors_of(const hci_dataset *b, const hci_runs *runs, co
         x.before += e->rms_before_Nm * e->rms_before_Nm;
         x.after += e->rms_after_Nm * e->rms_after_Nm;
         x.allowed += fmax(pow(NOISY * e->noise_floor_Nm, 2.0), pow(COARSE * resolution_Nm, 2.0));
+        if (runs->run[k].torque_source == HCI_TORQUE_MEASURED) told_add(e, resolution_Nm, &x);
     }
     return x;
 }
@@ -62,12 +74,21 @@ static bool is_described(const test_errors *x)
     return !(x->after > x->allowed) || x->after < NEARLY_ALL * NEARLY_ALL * x->before;
 }
 
+/* Whether an error that is small beside the noise, but stands out of it, has hardly fallen: of what is not
+ * noise more than a share of the mean square is left. */
+static bool is_hardly_less(const test_errors *x, double share)
+{
+    return x->told_after > NEAR * NEAR * x->told_noise &&
+           x->told_after - x->told_noise > share * (x->told_before - x->told_noise);
+}
+
 /* Whether the runs held out speak against the effects: they are not described down to their noise, and hardly
  * better than without; of what was kept of them because it helps, no better at all. */
 static bool is_contradicted(const test_errors *x, bool kept)
 {
     const double share = kept ? STAYS : HARDLY_BETTER;
-    return !is_described(x) && x->after > share * share * x->before;
+    return (!is_described(x) && x->after > share * share * x->before) ||
+           is_hardly_less(x, kept ? STAYS * STAYS : HARDLY_BETTER);
 }
 
 /* Whether the mean error of a run that was fitted stands beside its noise: a mean is known much better than a
@@ -95,6 +116,40 @@ static bool leaves_ripple(const hci_diagnosis *d, double resolution_Nm)
     return false;
 }
 
+/* The samples of a run. */
+static double rows_of(const hci_dataset *b, size_t run)
+{
+    double rows = 0.0;
+    for (size_t k = 0; k < b->samples.segment_count; ++k)
+        if (b->samples.segment[k].run == run) rows += (double)b->samples.segment[k].count;
+    return rows;
+}
+
+/* χ² that chance adds to runs held out by the errors of the values of the effects, twice over. */
+static double by_chance(const hci_diagnosis *d)
+{
+    double terms = 0.0;
+    for (size_t k = 0; k < d->effects.list.count; ++k)
+        terms += (double)d->effects.list.effect[k].count;
+    return BY_CHANCE + 2.0 * terms;
+}
+
+/* Whether all runs held out together are described worse than by the declared machine, however near to their
+ * noise they are. */
+static bool rises_at_all(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d)
+{
+    double rise = 0.0; /* χ² */
+    for (size_t k = 0, run = 0; k < runs->count && run < d->runs; ++k) {
+        const hci_run_errors *e = &d->run[run];
+        if (e->file != runs->run[k].name) continue;
+        ++run;
+        if (e->role == HCI_ROLE_FIT || !(e->noise_floor_Nm > 0.0)) continue;
+        const double weight = rows_of(b, k) / (e->noise_floor_Nm * e->noise_floor_Nm);
+        rise += weight * (pow(e->rms_after_Nm, 2.0) - pow(e->rms_before_Nm, 2.0));
+    }
+    return rise > by_chance(d) && d->holdout_after_Nm > RISES * d->holdout_before_Nm;
+}
+
 /* Whether something is left that the effects do not explain: the error held out is above the noise, or that
  * of currents and speeds beyond those that were fitted does not fall. */
 static bool is_partial(const test_errors *x, const hci_diagnosis *d, double resolution_Nm)
@@ -107,12 +162,22 @@ static bool is_partial(const test_errors *x, const hci_diagnosis *d, double reso
            leaves_ripple(d, resolution_Nm);
 }
 
+bool hci_held_out_leaves_much(const hci_diagnosis *d, double resolution_Nm)
+{
+    const double least_Nm = COARSE * resolution_Nm;
+    for (size_t k = 0; k < d->runs; ++k)
+        if (d->run[k].rms_after_Nm > fmax(MUCH_OF_ONE * d->run[k].noise_floor_Nm, least_Nm)) return true;
+    return d->rms_after_Nm > fmax(MUCH * d->noise_Nm, least_Nm) ||
+           d->holdout_after_Nm > fmax(MUCH * d->holdout_noise_Nm, least_Nm);
+}
+
 hci_held_out_result hci_held_out_judge(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d,
                                        double resolution_Nm)
 {
     const test_errors x = test_errors_of(b, runs, d, resolution_Nm);
     if (is_contradicted(&x, d->contradicted)) return HCI_HELD_OUT_CONTRADICTED;
-    return is_partial(&x, d, resolution_Nm) ? HCI_HELD_OUT_PARTLY : HCI_HELD_OUT_DESCRIBED;
+    return is_partial(&x, d, resolution_Nm) || rises_at_all(b, runs, d) ? HCI_HELD_OUT_PARTLY
+                                                                        : HCI_HELD_OUT_DESCRIBED;
 }
 
 bool hci_held_out_rises(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d,
@@ -120,15 +185,6 @@ bool hci_held_out_rises(const hci_dataset *b, const hci_runs *runs, const hci_di
 {
     const test_errors x = test_errors_of(b, runs, d, resolution_Nm);
     return x.after > x.allowed && x.after > RISES * RISES * x.before;
-}
-
-/* The samples of a run. */
-static double rows_of(const hci_dataset *b, size_t run)
-{
-    double rows = 0.0;
-    for (size_t k = 0; k < b->samples.segment_count; ++k)
-        if (b->samples.segment[k].run == run) rows += (double)b->samples.segment[k].count;
-    return rows;
 }
 
 bool hci_held_out_rises_both(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d)

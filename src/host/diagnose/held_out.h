@@ -16,9 +16,13 @@ typedef enum {
 } hci_held_out_result;
 
 /* Mean square errors of runs within the currents and speeds that were fitted; beyond them an error may not
- * rise. */
+ * rise, nor that of all of them by more than chance. */
 hci_held_out_result hci_held_out_judge(const hci_dataset *dataset, const hci_runs *runs,
                                        const hci_diagnosis *diagnosis, double resolution_Nm);
+
+/* Whether the runs that were fitted, or those held out, or one of them alone, have an error well above their
+ * noise. */
+bool hci_held_out_leaves_much(const hci_diagnosis *diagnosis, double resolution_Nm);
 
 /* Whether their error is above the noise and larger than that of the declared machine. */
 bool hci_held_out_rises(const hci_dataset *dataset, const hci_runs *runs, const hci_diagnosis *diagnosis,

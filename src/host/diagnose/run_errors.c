@@ -153,7 +153,9 @@ static hci_run_errors errors_of(const hci_dataset *b, const hci_runs *runs, size
     e.ripple_before_Nm = beside_mean(e.rms_before_Nm, e.error_mean_before_Nm);
     e.ripple_after_Nm = beside_mean(e.rms_after_Nm, e.error_mean_after_Nm);
     e.noise_floor_Nm = noise_of_turns(b, runs->run, run, after);
-    if (!isfinite(e.noise_floor_Nm)) e.noise_floor_Nm = noise_of_spectrum(b, run, after);
+    const double spectral_Nm = noise_of_spectrum(b, run, after);
+    e.unrepeated_Nm = isfinite(e.noise_floor_Nm) ? beside_mean(e.noise_floor_Nm, spectral_Nm) : (double)NAN;
+    if (!isfinite(e.noise_floor_Nm)) e.noise_floor_Nm = spectral_Nm;
     e.after_low_Nm = e.rms_after_Nm * fmax(0.0, 1.0 - spread);
     e.after_high_Nm = e.rms_after_Nm * (1.0 + spread);
     return e;

@@ -8,6 +8,7 @@
 #include "host/diagnose/fit/linearise.h"
 #include "host/diagnose/fit/model.h"
 #include "host/diagnose/fit/run_parts.h"
+#include "host/diagnose/sidebands.h"
 #include "host/diagnose/width_trials.h"
 #include "host/recording/rotor_frame.h"
 
@@ -21,6 +22,8 @@ enum { MACHINES = 200, SEED = 1 };
 
 typedef struct {
     hci_regression *regression;
+    const hci_candidates *fitted;
+    const hci_alternatives *alternatives;
     hci_allowed_terms terms;
     hci_condensed parts; /* runs, or parts of them */
     hci_condensed runs;  /* the same, with those joined that tell the same */
@@ -240,6 +243,65 @@ static hci_status machines_draw(const finding *f, const hci_model *model, hci_un
     return status;
 }
 
+/* ---- machines by other effects ---- */
+
+#define PINNED 1e-6 /* in the term's unit: deviation of what no machine but an alternative has */
+
+/* The fitted terms, and those of the machine that alternatives have, which are held where they are declared;
+ * those of the co-energy are expected anyway. */
+static hci_status with_alternatives(const hci_candidates *fitted, const hci_alternatives *alternatives,
+                                    hci_candidates *all, hci_note *note)
+{
+    hci_status status = hci_candidates_copy(fitted, all, note);
+    for (size_t n = 0; n < alternatives->count; ++n)
+        for (size_t k = 0; k < alternatives->machine[n]->count && !status; ++k) {
+            hci_candidate x = alternatives->machine[n]->candidate[k];
+            if (!x.in || !x.type->in_machine || x.type->propose_coenergy) continue;
+            if (hci_candidates_find_in(all, &x)) continue;
+            for (size_t j = 0; j < x.count; ++j)
+                x.term[j].value = x.declared[j];
+            x.deviation = PINNED;
+            status = hci_candidates_add(all, &x, note);
+        }
+    return status;
+}
+
+/* The value of a term in a model; NAN: it does not have it. */
+static double value_in(const hci_candidates *model, const hci_candidate *x, size_t j)
+{
+    for (size_t k = 0; k < model->count; ++k) {
+        const hci_candidate *c = &model->candidate[k];
+        for (size_t i = 0; c->in && c->type == x->type && i < c->count; ++i)
+            if (c->term[i].parameter == x->term[j].parameter &&
+                fabs(c->term[i].order - x->term[j].order) <= HCI_ORDER_TOLERANCE)
+                return c->term[i].value;
+    }
+    return (double)NAN;
+}
+
+/* By how much an alternative has another value than the fitted model; where neither has it, 0. */
+static double alternative_more(const finding *f, const hci_candidates *alternative, const hci_candidate *x,
+                               size_t j)
+{
+    const double there = value_in(alternative, x, j), here = value_in(f->fitted, x, j);
+    if (isnan(there)) return isnan(here) ? 0.0 : x->declared[j] - here;
+    return there - (isnan(here) ? x->term[j].value : here);
+}
+
+/* One in so many machines is what the recordings are by other effects, with the same chance about it. */
+static void alternatives_take(const finding *f, const hci_model *model, hci_uncertainty *u)
+{
+    for (size_t n = 0; n < f->alternatives->count; ++n)
+        for (size_t c = 0; c < model->columns; ++c) {
+            const hci_candidate *x = model->column[c].candidate;
+            const size_t j = model->column[c].term;
+            if (!x->type->in_machine) continue;
+            const double more = alternative_more(f, f->alternatives->machine[n], x, j);
+            for (size_t m = n; m < u->machines; m += f->alternatives->count + 1)
+                u->departure[model->column[c].place * u->machines + m] += more;
+        }
+}
+
 static size_t runs_told(const finding *f)
 {
     size_t runs = 0;
@@ -257,6 +319,7 @@ static hci_status uncertainty_fill(const finding *f, hci_uncertainty *u, hci_not
     status = hci_uncertainty_reserve(u, runs_told(f), MACHINES, note);
     if (!status) status = runs_fill(f, &model.list, u, note);
     if (!status) status = machines_draw(f, &model, u, note);
+    if (!status) alternatives_take(f, &model, u);
     hci_memory_free(model.column);
     return status;
 }
@@ -273,11 +336,15 @@ static void finding_release(finding *f)
 }
 
 hci_status hci_uncertainty_find(hci_regression *regression, const hci_candidates *fitted,
-                                hci_uncertainty *uncertainty, hci_note *note)
+                                const hci_alternatives *alternatives, hci_uncertainty *uncertainty,
+                                hci_note *note)
 {
-    finding f = {.regression = regression};
+    finding f = {.regression = regression, .fitted = fitted, .alternatives = alternatives};
+    hci_candidates all = {0};
     memset(uncertainty, 0, sizeof *uncertainty);
-    hci_status status = hci_allowed_terms_make(f.regression, fitted, &f.terms, note);
+    hci_status status = with_alternatives(fitted, alternatives, &all, note);
+    if (!status) status = hci_sidebands_add(regression->machine, &all, note);
+    if (!status) status = hci_allowed_terms_make(f.regression, &all, &f.terms, note);
     if (!status) status = parts_add(&f, note);
     if (!status && f.runs.count >= HCI_LEAST_GROUPS) {
         status = hci_width_trials_make(&f.terms, &f.runs, &f.trials, note);
@@ -285,6 +352,7 @@ hci_status hci_uncertainty_find(hci_regression *regression, const hci_candidates
             status = uncertainty_fill(&f, uncertainty, note);
     }
     finding_release(&f);
+    hci_candidates_release(&all);
     if (status) hci_uncertainty_release(uncertainty);
     return status;
 }

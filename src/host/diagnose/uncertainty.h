@@ -11,11 +11,20 @@
 #include "host/diagnose/candidates/candidates.h"
 #include "host/diagnose/fit/regression.h"
 
+enum { HCI_MOST_ALTERNATIVES = 8 };
+
+/* Other machines that explain the recordings as well, by other effects: each is the terms that are in. */
+typedef struct {
+    const hci_candidates *machine[HCI_MOST_ALTERNATIVES];
+    size_t count; /* 0: none */
+} hci_alternatives;
+
 /* fitted: the terms of the model that are in, with their values; regression: with the noise that the model
- * leaves. uncertainty: out; empty where fewer than three runs, or parts of runs that are long enough, tell
- * something. HCI_ERROR_MEMORY, HCI_ERROR_STOPPED by regression->watch, and then it is empty too. O(terms³/3 +
- * runs·samples·terms²). */
+ * leaves. Of n alternatives each makes one in n + 1 of the machines. uncertainty: out; empty where fewer than
+ * three runs, or parts of runs that are long enough, tell something. HCI_ERROR_MEMORY, HCI_ERROR_STOPPED by
+ * regression->watch, and then it is empty too. O(terms³/3 + runs·samples·terms²). */
 hci_status hci_uncertainty_find(hci_regression *regression, const hci_candidates *fitted,
-                                hci_uncertainty *uncertainty, hci_note *note);
+                                const hci_alternatives *alternatives, hci_uncertainty *uncertainty,
+                                hci_note *note);
 
 #endif

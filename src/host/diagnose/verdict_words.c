@@ -5,9 +5,13 @@
 #include "hci/host/diagnose/diagnose.h"
 #include "host/base/words.h"
 
-#define SAME       0.02 /* change of an error, as a share, that is none */
-#define NEAR_NOISE 1.5  /* times the noise: an error below it is not looked at in parts */
-#define BELIEVABLE 0.5  /* of the declared torque per ampere */
+#define SAME         0.02  /* change of an error, as a share, that is none */
+#define NEAR_NOISE   1.5   /* times the noise: an error below it is not looked at in parts */
+#define OF_MEANS     0.5   /* of the mean square of an error, that is of the means of the runs */
+#define PLAIN        100.0 /* ΔBIC of an effect that is not taken, and said all the same */
+#define NOTHING_LEFT 1.1   /* times the noise: an error in which nothing else is left */
+#define SHOWS        0.05  /* of the noise: torque that an effect has to make to be taken */
+#define BELIEVABLE   0.5   /* of the declared torque per ampere */
 
 /* Names of the findings of one verdict: "cogging, friction and reluctance". */
 static void say_names(const hci_words *w, const hci_diagnosis *d, hci_finding_verdict verdict,
@@ -67,6 +71,17 @@ static void say_errors(const hci_words *w, const hci_diagnosis *d)
         hci_words_say(w, " No run was held out, so this is not a test.");
 }
 
+/* Whether the means of the runs are most of what the declared machine leaves. */
+static bool is_of_means(const hci_diagnosis *d)
+{
+    double means = 0.0, all = 0.0;
+    for (size_t k = 0; k < d->runs; ++k) {
+        means += d->run[k].error_mean_before_Nm * d->run[k].error_mean_before_Nm;
+        all += d->run[k].rms_before_Nm * d->run[k].rms_before_Nm;
+    }
+    return means > OF_MEANS * all;
+}
+
 /* An explanation that was left out, and what it may come from. */
 static void say_disbelieved(const hci_words *w, const hci_diagnosis *d)
 {
@@ -77,8 +92,40 @@ static void say_disbelieved(const hci_words *w, const hci_diagnosis *d)
         hci_words_say(w, " (it would leave %.2g of the declared torque per ampere of i_q)",
                       d->disbelieved_share);
     hci_words_say(
-        w, ", so it was left out: see with `check` whether signs, units, angle and motor are those of the "
-           "machine folder.");
+        w, d->disbelieved_share >= BELIEVABLE && is_of_means(d)
+               ? ", so it was left out: most of what the declared machine leaves is the mean of each run, as "
+                 "where the zero of the torque sensor or the friction is another one from run to run."
+               : ", so it was left out: see with `check` whether signs, units, angle and motor are those of "
+                 "the machine folder.");
+}
+
+/* ---- what is decisive and was not taken ---- */
+
+static bool is_plain(const hci_finding *f)
+{
+    return f->verdict == HCI_FINDING_REJECTED && f->delta_bic > PLAIN && strcmp(f->effect, "unknown") != 0;
+}
+
+/* The three largest: they are in the order of their evidence. */
+static void say_not_taken(const hci_words *w, const hci_diagnosis *d)
+{
+    const bool settled =
+        d->verdict == HCI_DIAGNOSIS_COMPLETE || d->drowned_Nm > 0.0 || d->verdict == HCI_DIAGNOSIS_EXPLAINED;
+    size_t said = 0;
+    if (d->disbelieved || d->not_searched) return;
+    for (size_t k = 0; k < d->findings && said < 3; ++k) {
+        const hci_finding *f = &d->finding[k];
+        if (!is_plain(f)) continue;
+        hci_words_say(w, "%s %s (%.3g)", said == 0 ? " Decisive by ΔBIC and not taken:" : ",", f->effect,
+                      f->delta_bic);
+        ++said;
+    }
+    if (said > 0)
+        hci_words_say(w, "%s",
+                      settled
+                          ? "; what each would explain beside the rest is small beside the noise, or does "
+                            "not hold in runs left out."
+                          : "; none of them explains enough of it, or holds in runs left out.");
 }
 
 /* What a slip makes, and no effect. */
@@ -255,6 +302,15 @@ static void say_open_voltage(const hci_words *w, const hci_diagnosis *d)
 static void say_search(const hci_words *w, const hci_diagnosis *d)
 {
     if (d->search == HCI_WORK_COMPLETE) return;
+    if (d->verdict <= HCI_DIAGNOSIS_EXPLAINED && d->rms_after_Nm < NOTHING_LEFT * d->noise_Nm) {
+        hci_words_say(
+            w,
+            "%s: nothing but noise is left, yet others that may describe the recordings as well have not "
+            "been compared with it, so that this is not called sure (exit code 1). ",
+            d->search == HCI_WORK_INTERRUPTED ? "The search was interrupted"
+                                              : "The search reached the limit of its work");
+        return;
+    }
     hci_words_say(w,
                   "%s: this is the best model that it had found; others have not been compared with it%s. ",
                   d->search == HCI_WORK_INTERRUPTED ? "The search was interrupted"
@@ -272,6 +328,16 @@ static void say_nothing_measured(const hci_words *w)
         "holding test), or `inertia` to machine.csv for a free shaft; a torque that a drive has computed "
         "from "
         "its current is none.");
+}
+
+/* The noise is as large as what matters. */
+static void say_drowned(const hci_words *w, const hci_diagnosis *d)
+{
+    hci_words_say(w,
+                  "Whether something is missing is not known: the noise of the recordings, %.3g N·m rms, is "
+                  "%.2g of the torque that matters (%.3g N·m). An effect is taken only where it makes more "
+                  "than %.2g N·m rms; longer runs, a slower slope or a torque sensor show less.",
+                  d->noise_Nm, d->noise_Nm / d->drowned_Nm, d->drowned_Nm, SHOWS * d->noise_Nm);
 }
 
 static void say_complete(const hci_words *w, const hci_diagnosis *d)
@@ -298,8 +364,12 @@ static void say_ambiguous(const hci_words *w, const hci_diagnosis *d)
     say_added(w, d);
     hci_words_say(w, "%sThese recordings do not tell ", any(d, HCI_FINDING_ADDED) ? " " : "");
     say_names(w, d, HCI_FINDING_AMBIGUOUS, d->inertia_as_well ? ", " : " and ");
-    hci_words_say(w, "%s apart: each explains them equally well.",
-                  d->inertia_as_well ? " and a wrong inertia" : "");
+    hci_words_say(w, "%s",
+                  d->sensors_as_well
+                      ? " from current sensors that read a part of each other's current: these "
+                        "explain them equally well."
+                  : d->inertia_as_well ? " and a wrong inertia apart: each explains them equally well."
+                                       : " apart: each explains them equally well.");
     if (d->inertia_as_well)
         hci_words_say(w, " A free shaft shows torque per ampere and inertia as their ratio only.");
 }
@@ -311,7 +381,9 @@ static void say_verdict(const hci_words *w, const hci_diagnosis *d)
         say_complete(w, d);
         return;
     case HCI_DIAGNOSIS_UNKNOWN:
-        if (d->not_searched)
+        if (d->drowned_Nm > 0.0)
+            say_drowned(w, d);
+        else if (d->not_searched)
             say_not_searched(w, d);
         else
             say_unknown(w, d);
@@ -330,15 +402,34 @@ static void say_verdict(const hci_words *w, const hci_diagnosis *d)
     say_unstable(w, d);
 }
 
+/* The one that disagrees comes first. */
+static void say_odd(const hci_words *w, const hci_diagnosis *d)
+{
+    const hci_odd_run *o = &d->odd;
+    if (!o->file) return;
+    hci_words_say(w, "Only %s disagrees with the others: its error is %.3g N·m rms, theirs %.3g N·m", o->file,
+                  o->rms_Nm, o->others_Nm);
+    if (o->mended)
+        hci_words_say(w, "; it is as if %s: with that mended its error is %.3g N·m", o->slip, o->mended_Nm);
+    else if (o->slip[0])
+        hci_words_say(w, "; most of that goes if %s", o->slip);
+    else
+        hci_words_say(w, "; a swapped phase, another index, unit or sign in that file would do it, and so "
+                         "would whatever happened in it alone");
+    hci_words_say(w, ". It was taken out: look at that file. Of the others: ");
+}
+
 void hci_diagnosis_words(const hci_diagnosis *d, char *text, size_t size)
 {
     const hci_words w = {text, size};
     text[0] = '\0';
+    say_odd(&w, d);
     say_search(&w, d);
     if (d->nothing_measured)
         say_nothing_measured(&w);
     else
         say_verdict(&w, d);
+    say_not_taken(&w, d);
     say_swings(&w, d);
     say_zeros(&w, d);
     say_magnetic_only(&w, d);

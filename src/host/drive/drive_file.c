@@ -154,6 +154,7 @@ hci_status hci_drive_read(const char *path, hci_drive_data *drive, hci_note *not
     for (size_t row = 0; row < hci_csv_rows(csv) && !status; ++row)
         status = read_row(csv, row, drive, given, note);
     hci_csv_free(csv);
+    drive->gains_are_given = !isnan(drive->kp_ohm) || !isnan(drive->bandwidth_Hz);
     if (status) hci_drive_release(drive);
     return status;
 }

@@ -1,26 +1,11 @@
-/* What the current loop of a drive is: read off its linear model, and compared with its measured response. */
+/* What the current loop of a drive is: read off its linear model. */
 #include "hci/host/drive/drive_facts.h"
 
 #include <math.h>
 
+#include "host/base/quote.h"
 #include "host/drive/machine_model.h"
-
-#define NAME_OF(value, word, what)  [value] = word,
-#define WORDS_OF(value, word, what) [value] = what,
-static const char *const NAMES[] = {HCI_RESPONSE_READINGS(NAME_OF)};
-static const char *const WORDS[] = {HCI_RESPONSE_READINGS(WORDS_OF)};
-#undef NAME_OF
-#undef WORDS_OF
-
-const char *hci_response_reading_name(hci_response_reading reading)
-{
-    return NAMES[reading];
-}
-
-const char *hci_response_reading_words(hci_response_reading reading)
-{
-    return WORDS[reading];
-}
+#include "host/drive/response_reading.h"
 
 /* ---- bandwidth ---- */
 
@@ -49,6 +34,20 @@ static double bandwidth_Hz(const hci_loop_model *m, int axis, double highest_rad
             low = middle;
     }
     return high / (2.0 * HCI_PI);
+}
+
+/* Largest answer, of the frequencies looked at. */
+static double peak_of(const hci_loop_model *m, int axis, double highest_rad_per_s, double *at_Hz)
+{
+    double most = 0.0;
+    for (int k = 0; k <= FREQUENCIES; ++k) {
+        const double nu = 1e-4 * highest_rad_per_s * pow(1e4, (double)k / FREQUENCIES);
+        const double gain = cabs(answer_of(m, axis, nu));
+        if (!(gain > most)) continue;
+        most = gain;
+        *at_Hz = nu / (2.0 * HCI_PI);
+    }
+    return most;
 }
 
 /* ---- stability ---- */
@@ -93,83 +92,6 @@ static double stable_end(const hci_loop_model *m, double sampled_rad_per_s)
     return low;
 }
 
-/* ---- the measured response ---- */
-
-typedef struct {
-    const hci_loop_point *point;
-    size_t count;
-    double highest_rad_per_s; /* up to which the loop is compared */
-    hci_response_of of;
-} response;
-
-/* Largest |measured/computed − 1|. at_Hz: out, or NULL. */
-static double off_of(const response *r, const hci_loop_model *m, double *at_Hz)
-{
-    double most = 0.0;
-    for (size_t k = 0; k < r->count; ++k) {
-        const hci_loop_point *p = &r->point[k];
-        const double nu = 2.0 * HCI_PI * p->frequency_Hz;
-        if (nu > r->highest_rad_per_s) break;
-        for (int axis = 0; axis < 2; ++axis) {
-            const double complex measured = p->gain[axis] * cexp(p->phase_rad[axis] * (double complex)I);
-            const hci_loop_answer answer = hci_loop_answer_at(m, nu);
-            const hci_matrix2 *of = r->of == HCI_RESPONSE_OF_SAMPLES ? &answer.sampled : &answer.reference;
-            const double off = cabs(measured / of->m[axis][axis] - 1.0);
-            if (!(off > most)) continue;
-            most = off;
-            if (at_Hz) *at_Hz = p->frequency_Hz;
-        }
-    }
-    return most;
-}
-
-typedef struct {
-    hci_response_reading reading;
-    double off, value;
-} explanation;
-
-static void keep_better(explanation *best, hci_response_reading reading, double off, double value)
-{
-    if (off < best->off) *best = (explanation){reading, off, value};
-}
-
-/* What is left with other units, gains or delays: one change at a time. */
-static explanation explain(const response *r, const hci_loop_model *m)
-{
-    explanation best = {HCI_RESPONSE_UNKNOWN, HUGE_VAL, (double)NAN};
-    response other_current = *r;
-    other_current.of = r->of == HCI_RESPONSE_OF_SAMPLES ? HCI_RESPONSE_OF_CURRENT : HCI_RESPONSE_OF_SAMPLES;
-    keep_better(&best, HCI_RESPONSE_OTHER_CURRENT, off_of(&other_current, m, NULL), (double)NAN);
-    for (int k = -96; k <= 96; ++k) {
-        const double factor = pow(2.0, k / 24.0);
-        const hci_loop_model other = hci_loop_with_gains(*m, factor);
-        keep_better(&best, HCI_RESPONSE_GAINS, off_of(r, &other, NULL), factor);
-    }
-    for (int k = 0; k <= 40; ++k) {
-        hci_loop_model other = *m;
-        other.delay_s = m->sample_s * k / 40.0;
-        keep_better(&best, HCI_RESPONSE_DELAY, off_of(r, &other, NULL), other.delay_s);
-    }
-    return best;
-}
-
-static void compare_response(const hci_drive_data *drive, const hci_loop_model *m, hci_drive_facts *f)
-{
-    const response r = {drive->response, drive->response_count, hci_drive_highest_rad_per_s(drive),
-                        drive->response_of};
-    f->response_off = f->response_off_Hz = f->reading_off = f->reading_value = (double)NAN;
-    f->response_count = drive->response_count;
-    if (r.count == 0) return;
-    f->reading_off = f->response_off = off_of(&r, m, &f->response_off_Hz);
-    if (f->response_off <= HCI_RESPONSE_TOLERANCE) return;
-    const explanation e = explain(&r, m);
-    f->reading = HCI_RESPONSE_UNKNOWN;
-    if (e.off > 0.5 * HCI_RESPONSE_TOLERANCE && e.off > 0.25 * f->response_off) return;
-    f->reading = e.reading;
-    f->reading_off = e.off;
-    f->reading_value = e.value;
-}
-
 /* ---- all of it ---- */
 
 static void look_at(const hci_drive_data *d, const hci_machine_model *machine, hci_drive_facts *f)
@@ -179,6 +101,7 @@ static void look_at(const hci_drive_data *d, const hci_machine_model *machine, h
     const hci_loop_model m = hci_drive_loop(d, machine, 0.0);
     for (int axis = 0; axis < 2; ++axis) {
         f->inductance_H[axis] = machine->inductance_H[axis];
+        f->peak[axis] = peak_of(&m, axis, highest, &f->peak_Hz[axis]);
         f->bandwidth_Hz[axis] = bandwidth_Hz(&m, axis, highest);
     }
     f->lead_s = -carg(answer_of(&m, 1, late)) / late;
@@ -187,7 +110,7 @@ static void look_at(const hci_drive_data *d, const hci_machine_model *machine, h
     f->sampled_rad_per_s = sampled / pairs;
     f->stable_rad_per_s = stable_end(&m, sampled) / pairs;
     f->highest_order = f->speed_rad_per_s > 0.0 ? highest / (pairs * f->speed_rad_per_s) : (double)NAN;
-    compare_response(d, &m, f);
+    hci_response_compare(d, &m, f);
 }
 
 hci_status hci_drive_facts_of(hci_drive_data *drive, const hci_machine_data *machine, double speed_rad_per_s,
@@ -208,4 +131,21 @@ hci_status hci_drive_facts_of(hci_drive_data *drive, const hci_machine_data *mac
     look_at(drive, &model, facts);
     hci_machine_model_release(&model);
     return HCI_OK;
+}
+
+void hci_drive_remark_response(const hci_drive_data *drive, const hci_machine_data *machine, hci_note *remark)
+{
+    char text[HCI_RESPONSE_TEXT_SIZE], path[HCI_QUOTE_PATH_SIZE];
+    hci_drive_data d = *drive;
+    hci_drive_facts f;
+    hci_note note = {{0}};
+    if (d.response_count == 0 || hci_drive_facts_of(&d, machine, 0.0, &f, &note)) return;
+    if (f.reading == HCI_RESPONSE_AS_DECLARED) return;
+    hci_response_reading_text(&f, text);
+    hci_note_add(remark,
+                 "%s: its `response` is at most %.3g %% off what %s make of R and L, at %.4g Hz, and "
+                 "`compensation` and `lead` are of the response: %s",
+                 hci_quote_path(drive->path, path), 100.0 * f.response_off,
+                 drive->gains_are_given ? "its gains" : "the default gains, since it has none,",
+                 f.response_off_Hz, text);
 }

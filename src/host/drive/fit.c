@@ -62,7 +62,7 @@ static hci_status check_times(const hci_drive_data *d, hci_note *note)
         return hci_note_set(note, HCI_ERROR_INPUT,
                             "%s: `computing_delay` is %g s, expected at most `current_sample_time`, %g s",
                             file_of(d, path), d->computing_delay_s, d->sample_s);
-    if (hci_drive_dead_share(d) >= 0.5)
+    if (hci_drive_dead_share(d) >= 0.5 * (1.0 - 1e-9))
         return hci_note_set(
             note, HCI_ERROR_INPUT,
             "%s: `dead_time` is %g s, expected less than half a period of the PWM, which is %g s by "
@@ -176,7 +176,7 @@ hci_status hci_drive_check_speed(const hci_drive_data *drive, const hci_machine_
     const double samples = 2.0 * HCI_PI / (electrical * drive->sample_s);
     char path[HCI_QUOTE_PATH_SIZE];
     hci_machine_model model;
-    if (samples < LEAST_SAMPLES)
+    if (samples < LEAST_SAMPLES * (1.0 - 1e-9))
         return hci_note_set(
             note, HCI_ERROR_INPUT,
             "%s: %g rpm has %.3g samples in an electrical turn, expected at least %g: at most %.4g "

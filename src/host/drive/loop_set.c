@@ -11,6 +11,7 @@
 
 #include "host/base/memory.h"
 #include "host/base/quote.h"
+#include "host/drive/measured_loop.h"
 #include "host/drive/turn_samples.h"
 
 /* Orders are kept whose current is more than this share of the largest current, or whose voltage is more than
@@ -198,40 +199,17 @@ static hci_status lead_find(const maker *m, double *lead_s)
     return HCI_OK;
 }
 
-/* 1/(C H) at a measured frequency: (1/G − Fρ)/(R + jνL) of the current that flows, ρ(1/G − F)/(R + jνL) of
- * the samples; F the filter of the measured current, ρ what the samples read of the current at that
- * frequency. */
-static hci_loop_response response_of(const maker *m, const hci_loop_point *p)
-{
-    const double nu = 2.0 * HCI_PI * p->frequency_Hz;
-    const hci_loop_model model = hci_drive_loop(m->task->drive, &m->machine, 0.0);
-    const double complex filter = hci_loop_filter_at(&model, nu);
-    hci_loop_response r = {.frequency_rad_per_s = (float)nu};
-    for (int a = 0; a < 2; ++a) {
-        const double complex inverse = cexp(-p->phase_rad[a] * (double complex)I) / p->gain[a];
-        const double complex read = hci_loop_sampling_at(&model, a, nu);
-        const double complex open = m->task->drive->response_of == HCI_RESPONSE_OF_SAMPLES
-                                        ? read * (inverse - filter)
-                                        : inverse - filter * read;
-        const double complex x =
-            open / (m->machine.resistance_ohm + nu * m->machine.inductance_H[a] * (double complex)I);
-        r.re[a] = (float)creal(x);
-        r.im[a] = (float)cimag(x);
-    }
-    return r;
-}
-
 static hci_status fill_responses(maker *m)
 {
-    const hci_drive_data *d = m->task->drive;
     hci_loop_set *set = m->set;
-    if (d->response_count == 0) return HCI_OK;
-    set->responses = hci_memory_new(d->response_count, sizeof *set->responses);
-    if (!set->responses) return hci_note_memory(m->note, NULL, "%zu frequencies", d->response_count);
-    for (size_t k = 0; k < d->response_count; ++k)
-        set->responses[k] = response_of(m, &d->response[k]);
+    size_t count;
+    set->response_error[0] = set->response_error[1] = (double)NAN;
+    if (m->task->drive->response_count == 0) return HCI_OK;
+    const hci_status status = hci_measured_loop_make(m->task->drive, &m->machine, &set->responses, &count,
+                                                     set->response_error, m->note);
+    if (status) return status;
     set->loop.responses = set->responses;
-    set->loop.response_count = (uint32_t)d->response_count;
+    set->loop.response_count = (uint32_t)count;
     return HCI_OK;
 }
 
@@ -333,12 +311,17 @@ static void fill_level_ranges(maker *m, size_t level, partial_turn *x)
     }
 }
 
+/* Electrical speed at which an order is the highest that the sampling does for. */
+static double sampled_end(const maker *m, size_t k)
+{
+    const double order = (double)m->order[k] / (double)m->level[0].turns;
+    return hci_drive_highest_rad_per_s(m->task->drive) / order;
+}
+
 /* Where half the sampling is near, or no more speed is asked for. */
 static void limit_range(const maker *m, size_t k, hci_loop_range *range)
 {
-    const double p = m->machine.table.pole_pairs;
-    const double order = (double)m->order[k] / (double)m->level[0].turns;
-    const double end = hci_drive_highest_rad_per_s(m->task->drive) / order;
+    const double p = m->machine.table.pole_pairs, end = sampled_end(m, k);
     const double whole =
         m->task->speed_rad_per_s > 0.0 ? fmin(0.9 * end, m->task->speed_rad_per_s * p) : 0.9 * end;
     *range = (hci_loop_range){(float)whole, (float)(whole / 0.9)};
@@ -367,7 +350,7 @@ static hci_status fill_ranges(maker *m)
     set->ranges[0] = (hci_loop_range){FLT_MAX, FLT_MAX};
     for (size_t k = 1; k < m->count; ++k)
         limit_range(m, k, &set->ranges[k]);
-    set->sampled_rad_per_s = m->count > 1 ? (double)set->ranges[m->count - 1].whole_rad_per_s / p : HUGE_VAL;
+    set->sampled_rad_per_s = m->count > 1 ? 0.9 * sampled_end(m, m->count - 1) / p : HUGE_VAL;
     for (size_t l = 0; l < m->task->level_count; ++l)
         fill_level_ranges(m, l, x);
     set->voltage_rad_per_s = m->voltage_end / p;
@@ -459,6 +442,21 @@ hci_status hci_loop_set_make(const hci_loop_task *task, hci_loop_set *set, hci_n
     hci_machine_model_release(&m->own);
     hci_memory_free(m);
     return status;
+}
+
+double hci_loop_set_response_error(const hci_loop_set *set)
+{
+    return fmax(set->response_error[0], set->response_error[1]);
+}
+
+double hci_loop_set_response_percent(const hci_loop_set *set, const hci_loop_task *task, size_t level,
+                                     double speed_rad_per_s)
+{
+    const double torque_Nm = task->levels[level].torque_Nm;
+    const hci_machine *machine = &task->machine->model;
+    const double swing_Nm = hci_measured_loop_swing_Nm(
+        &set->loop, machine, set->response_error, (uint32_t)level, speed_rad_per_s * machine->pole_pairs);
+    return fabs(torque_Nm) > 0.0 ? 100.0 * swing_Nm / fabs(torque_Nm) : (double)NAN;
 }
 
 void hci_loop_set_release(hci_loop_set *set)

@@ -30,11 +30,20 @@ typedef struct {
     double voltage_rad_per_s;  /* mechanical: above it the voltage does not do for all orders; HUGE_VAL */
     double sampled_rad_per_s;  /* mechanical: above it the sampling does not do for all orders; HUGE_VAL */
     double measured_rad_per_s; /* mechanical: above it orders lie beyond the measured response; HUGE_VAL */
-    double share_left_out;     /* largest current of the orders that were too small to keep, of the peak */
+    double response_error[2]; /* of d and q, share: how far loop.csv is off between its points; NAN without */
+    double share_left_out;    /* largest current of the orders that were too small to keep, of the peak */
 } hci_loop_set;
 
 /* HCI_ERROR_INPUT, _ARGUMENT (levels that do not fit), _MEMORY. To be released, on failure too. */
 hci_status hci_loop_set_make(const hci_loop_task *task, hci_loop_set *set, hci_note *note);
 void hci_loop_set_release(hci_loop_set *set);
+
+/* What hci_measured_loop_swing_Nm says of a set that was made of loop.csv, in % of the torque of a level; NAN
+ * without one, or without a torque. speed: mechanical. */
+double hci_loop_set_response_percent(const hci_loop_set *set, const hci_loop_task *task, size_t level,
+                                     double speed_rad_per_s);
+
+/* The larger of both response_error. */
+double hci_loop_set_response_error(const hci_loop_set *set);
 
 #endif

@@ -45,6 +45,47 @@ static bool is_early(const hci_loop_point *points, size_t count, int axis)
     return most_rad > 0.1 * HALF_RAD;
 }
 
+/* Far beyond what a turn's lateness or two makes. */
+#define MANY_RAD (4.0 * HALF_RAD)
+
+static double largest_phase_rad(const hci_loop_point *points, size_t count, int axis)
+{
+    double most_rad = 0.0;
+    for (size_t k = 0; k < count; ++k)
+        most_rad = fmax(most_rad, fabs(points[k].phase_rad[axis]));
+    return most_rad;
+}
+
+static bool is_half_a_turn_on(const hci_loop_point *points, size_t count, int axis)
+{
+    return largest_phase_rad(points, count, axis) < MANY_RAD &&
+           fabs(fabs(points[0].phase_rad[axis]) - HALF_RAD) < 0.5;
+}
+
+static const char HALF_TURN[] =
+    "where slow currents are half a turn late, reference and current have different "
+    "signs: add half a turn to the phases";
+
+static const char *remedy_of_phases(const hci_loop_point *points, size_t count, int axis)
+{
+    if (is_half_a_turn_on(points, count, axis)) return HALF_TURN;
+    return axis ? "degrees are in a column `phase_q_deg`, which is converted"
+                : "degrees are in a column `phase_d_deg`, which is converted";
+}
+
+/* Where the loop follows, it answers with 1. */
+#define MOST_GAIN 10.0
+
+static hci_status check_gains(const hci_csv *csv, const hci_loop_point *points, hci_note *note)
+{
+    for (int axis = 0; axis < 2; ++axis)
+        if (points[0].gain[axis] > MOST_GAIN)
+            return hci_csv_error(csv, COLUMN[axis ? GAIN_Q : GAIN_D], 0, note,
+                                 "a ratio of amplitudes, near 1 at the lowest frequency",
+                                 "per cent are divided by 100");
+    return HCI_OK;
+}
+
 /* Phases that no loop has. */
 static hci_status check_phases(const hci_csv *csv, const hci_loop_point *points, hci_note *note)
 {
@@ -55,11 +96,11 @@ static hci_status check_phases(const hci_csv *csv, const hci_loop_point *points,
             if (is_of_degrees(&points[k], axis))
                 return hci_csv_error(csv, column, k, note,
                                      "less than half a period of lateness where the gain is above 0.7",
-                                     axis ? "degrees are in a column `phase_q_deg`, which is converted"
-                                          : "degrees are in a column `phase_d_deg`, which is converted");
+                                     remedy_of_phases(points, count, axis));
         if (is_early(points, count, axis))
             return hci_csv_error(csv, column, count - 1, note, "phases below 0, since the current is late",
-                                 "turn the sign of the column");
+                                 is_half_a_turn_on(points, count, axis) ? HALF_TURN
+                                                                        : "turn the sign of the column");
     }
     return HCI_OK;
 }
@@ -89,6 +130,7 @@ static hci_status take_columns(const hci_csv *csv, hci_loop_point *points, doubl
     }
     for (size_t k = 0; k < rows && !status; ++k)
         status = check_row(csv, k, &points[k], note);
+    if (!status) status = check_gains(csv, points, note);
     return status ? status : check_phases(csv, points, note);
 }
 

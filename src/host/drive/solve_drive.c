@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "hci/host/drive/drive.h"
-#include "host/base/quote.h"
+#include "host/machine/saliency.h"
 
 static bool is_given(double in_drive, double in_machine)
 {
@@ -47,6 +47,16 @@ void hci_drive_complete(const hci_drive_data *drive, hci_machine_data *machine)
     if (machine->inductance_count > 0) return;
     take(drive->inductance_d_H, &machine->inductance_d_H);
     take(drive->inductance_q_H, &machine->inductance_q_H);
+}
+
+void hci_drive_remark_saliency(const hci_drive_data *drive, const hci_machine_data *machine,
+                               const char *folder, hci_note *remark)
+{
+    const bool d_is_given = drive->inductance_d_H > 0.0, q_is_given = drive->inductance_q_H > 0.0;
+    if (machine->inductance_count > 0 || machine->model.slope_count > 0 || !(d_is_given || q_is_given))
+        return;
+    hci_saliency_remark(drive->path, folder, d_is_given ? drive->inductance_d_H : machine->inductance_d_H,
+                        q_is_given ? drive->inductance_q_H : machine->inductance_q_H, remark);
 }
 
 static double link_of(const hci_drive_data *drive, const hci_machine_data *machine)

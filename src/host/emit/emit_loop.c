@@ -60,19 +60,33 @@ static void write_rpm(hci_output *out, const char *what, double speed_rad_per_s)
     char text[32];
     if (isfinite(speed_rad_per_s))
         hci_output_text(out, "%s%s rpm", what,
-                        hci_emission_number(floor(speed_rad_per_s * 30.0 / HCI_PI), text));
+                        hci_emission_number(floor(speed_rad_per_s * 30.0 / HCI_PI * (1.0 + 1e-6)), text));
     else
         hci_output_text(out, "%sany speed", what);
+}
+
+/* One level is what it is: nobody should find that out on the shaft. */
+static void write_levels(const hci_loop_f32 *loop, hci_output *out)
+{
+    char low[32], high[32];
+    hci_emission_number((double)loop->torque_low_Nm, low);
+    hci_emission_number((double)loop->torque_high_Nm, high);
+    if (loop->levels == 1)
+        hci_output_text(
+            out,
+            " * Torque:  1 level, %s N*m whatever is asked for, 0 and negative too; what is no number is\n"
+            " *          no current. --per-torque, or several levels, follow what is asked for.\n",
+            low);
+    else
+        hci_output_text(out, " * Torque:  %" PRIu32 " levels, %s to %s N*m; what is outside is clamped.\n",
+                        loop->levels, low, high);
 }
 
 static void write_figures(const emission *e, hci_output *out)
 {
     const hci_loop_f32 *loop = &e->set.loop;
     char low[32], high[32];
-    hci_output_text(out, " * Torque:  %" PRIu32 " level%s, %s to %s N*m; what is outside is clamped.\n",
-                    loop->levels, loop->levels == 1 ? "" : "s",
-                    hci_emission_number((double)loop->torque_low_Nm, low),
-                    hci_emission_number((double)loop->torque_high_Nm, high));
+    write_levels(loop, out);
     hci_output_text(out, " * Error:   a table of %" PRIu32 " points is within %s A of its waves, of %s A.\n",
                     loop->points, hci_emission_number(e->set.max_error_A, low),
                     hci_emission_number(e->set.peak_A, high));
@@ -283,8 +297,16 @@ static hci_status write_files(const emission *e, const char *folder, hci_note *n
     return status;
 }
 
-static hci_emit_loop_result result_of(const hci_loop_set *set)
+/* The speed asked for, or the highest at which all orders are whole. */
+static double told_speed(const hci_loop_set *set, const hci_loop_task *task)
 {
+    const double end = fmin(set->measured_rad_per_s, fmin(set->voltage_rad_per_s, set->sampled_rad_per_s));
+    return task->speed_rad_per_s > 0.0 ? task->speed_rad_per_s : isfinite(end) ? end : 0.0;
+}
+
+static hci_emit_loop_result result_of(const hci_loop_set *set, const hci_loop_task *task)
+{
+    const double told_rad_per_s = told_speed(set, task);
     const hci_loop_f32 *loop = &set->loop;
     return (hci_emit_loop_result){
         .orders = loop->order_count,
@@ -304,6 +326,10 @@ static hci_emit_loop_result result_of(const hci_loop_set *set)
         .voltage_rad_per_s = set->voltage_rad_per_s,
         .sampled_rad_per_s = set->sampled_rad_per_s,
         .measured_rad_per_s = set->measured_rad_per_s,
+        .response_error = hci_loop_set_response_error(set),
+        .response_ripple_percent =
+            hci_loop_set_response_percent(set, task, task->level_count - 1, told_rad_per_s),
+        .response_rad_per_s = told_rad_per_s,
         .crc32 = loop->crc32};
 }
 
@@ -326,7 +352,7 @@ hci_status hci_emit_loop(const char *folder, const hci_emit_loop_request *reques
                                 false};
     if (!status) status = hci_loop_set_make(&task, &e.set, note);
     if (!status) status = write_files(&e, folder, note);
-    if (!status && result) *result = result_of(&e.set);
+    if (!status && result) *result = result_of(&e.set, &task);
     hci_loop_set_release(&e.set);
     return status;
 }

@@ -37,7 +37,7 @@ typedef struct {
 
 /* ---- names ---- */
 
-/* A C identifier of a machine's name. */
+/* A C identifier of a machine's name: at most 8 characters before it, and `end`, of at most 15, behind. */
 static void make_identifier(const char *name, const char *end, char identifier[HCI_MACHINE_NAME + 24])
 {
     static const char LETTERS[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789";

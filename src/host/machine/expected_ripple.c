@@ -221,6 +221,19 @@ static double largest_torque_Nm(const hci_ripple_path *path)
     return most_Nm;
 }
 
+/* The first but one that three phases make: a bound from recordings that end below it leaves most out. */
+#define LEAST_ORDER 12.0
+
+static bool ends_low(const hci_uncertainty *u)
+{
+    const hci_effects *list = &u->effects.list;
+    double top = 0.0;
+    for (size_t k = 0; k < list->count; ++k)
+        for (size_t n = 0; n < list->effect[k].count; ++n)
+            top = fmax(top, list->effect[k].term[n].order);
+    return top < LEAST_ORDER - 1.0; /* a back-EMF of order 11 makes order 12 */
+}
+
 static hci_status find(const hci_ripple_path *path, const hci_uncertainty *u, hci_expected_ripple *expected,
                        hci_note *note)
 {
@@ -229,6 +242,8 @@ static hci_status find(const hci_ripple_path *path, const hci_uncertainty *u, hc
     if (!u || u->machines == 0 || path->count == 0) return HCI_OK;
     expected->state = HCI_RIPPLE_OTHER_EFFECTS;
     if (!hci_uncertainty_is_of(u, path->effects)) return HCI_OK;
+    expected->state = HCI_RIPPLE_UNTOLD;
+    if (ends_low(u)) return HCI_OK;
     expected->state = HCI_RIPPLE_KNOWN;
     fill_currents(path, u, expected);
     if (u->runs < HCI_RIPPLE_LEAST_RECORDINGS && hci_expected_ripple_is_far(expected)) {

@@ -177,7 +177,7 @@ static hci_status read_folder(const char *folder, hci_machine_data *m, hci_note 
     m->has_effects = !status && hci_machine_has(path);
     if (!status) tell_no_cogging(folder, m);
     if (!status && m->model.slope_count == 0 && m->inductance_count == 0)
-        hci_saliency_remark(folder, m->inductance_d_H, m->inductance_q_H, &m->remark);
+        hci_saliency_remark(folder, folder, m->inductance_d_H, m->inductance_q_H, &m->remark);
     return status;
 }
 

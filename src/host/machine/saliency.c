@@ -33,7 +33,8 @@ static bool effects_have_it(const char *folder)
     return found;
 }
 
-void hci_saliency_remark(const char *folder, double inductance_d_H, double inductance_q_H, hci_note *remark)
+void hci_saliency_remark(const char *file, const char *folder, double inductance_d_H, double inductance_q_H,
+                         hci_note *remark)
 {
     char shown[HCI_QUOTE_PATH_SIZE];
     if (!hci_is_salient(inductance_d_H, inductance_q_H)) return;
@@ -46,7 +47,7 @@ void hci_saliency_remark(const char *folder, double inductance_d_H, double induc
         "`init --inductance-d --inductance-q` does) La = (L_d + L_q)/3 + (L_d - L_q)/3 cos 2θ and "
         "Mab = -(L_d + L_q)/6 + (L_d - L_q)/3 cos(2θ - 2π/3), Lb and Mbc the same at θ - 2π/3, "
         "Lc and Mca at θ + 2π/3; or give both the same value",
-        hci_quote_path(folder, shown), inductance_d_H, inductance_q_H);
+        hci_quote_path(file, shown), inductance_d_H, inductance_q_H);
 }
 
 /* Of the mean of L_d and L_q where both are declared: what instruments and saturation by the magnets leave.

@@ -8,10 +8,11 @@
 #include "hci/host/base/output.h"
 #include "hci/host/machine/machine.h"
 
-/* Of a folder without inductance.csv: adds to the remark that currents are solved without the reluctance
- * torque 3/2 p (L_d - L_q) i_d i_q, and how to have it, where the two differ by more than 1 % and effects.csv
- * has no effect that makes it. NAN: not given. */
-void hci_saliency_remark(const char *folder, double inductance_d_H, double inductance_q_H, hci_note *remark);
+/* Of a machine folder without inductance.csv, where a file gives L_d and L_q: adds to the remark that
+ * currents are solved without the reluctance torque 3/2 p (L_d - L_q) i_d i_q, and how to have it, where the
+ * two differ by more than 1 % and effects.csv has no effect that makes it. NAN: not given. */
+void hci_saliency_remark(const char *file, const char *folder, double inductance_d_H, double inductance_q_H,
+                         hci_note *remark);
 
 /* Whether they differ so much. */
 bool hci_is_salient(double inductance_d_H, double inductance_q_H);

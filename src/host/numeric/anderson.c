@@ -52,12 +52,13 @@ static void remember(hci_anderson *m, const double *x, const double *g)
 void hci_anderson_step(hci_anderson *m, double *x, const double *g)
 {
     const size_t n = m->n, known = m->steps < MEMORY ? m->steps : MEMORY;
-    size_t column[MEMORY], rank;
+    size_t column[MEMORY];
+    hci_orthogonal q = {.m = n, .n = known, .a = m->a, .column = column, .work = m->work};
     double weight[MEMORY] = {0.0}, work[MEMORY];
     remember(m, x, g);
     memcpy(m->a, m->df, known * n * sizeof *m->a);
-    if (known > 0 && !hci_orthogonal_factor(n, known, m->a, DEPENDENT, column, m->work, &rank, NULL))
-        hci_orthogonal_solve(n, known, m->a, column, m->work, rank, m->b, weight, work);
+    if (known > 0 && !hci_orthogonal_factor(&q, DEPENDENT, NULL))
+        hci_orthogonal_solve(&q, m->b, weight, work);
     for (size_t k = 0; k < n; ++k) {
         x[k] = m->x[k] + m->f[k];
         for (size_t j = 0; j < known; ++j)

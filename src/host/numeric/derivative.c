@@ -17,6 +17,9 @@
 
 enum { WINDOW_LEAST = 5, STEPS_LEAST = 20, STILL_SHARE = 5, PROBES = 512, OVERLAP = 4 };
 
+/* Blocks that a record is summed up in, and of how many of them a window is at least put together. */
+enum { BLOCKS = 512, BLOCKS_LEAST = 4 };
+
 /* ---- steps in time ---- */
 
 /* The mean of the steps but for those that are more than `most` times as long. */
@@ -81,17 +84,29 @@ static double quantum_of(const double *x, size_t n)
 
 /* ---- the parabola ---- */
 
-/* Sums over the samples first … end − 1, about an origin near them so that little cancels. */
+/* Sums about an origin near the samples, so that little cancels. */
 typedef struct {
-    const double *t, *x;
-    size_t first, end;
     double t0, x0, scale_s;
     double moment[5], product[3]; /* Σ u^j, Σ u^j v */
+} sums_about;
+
+/* Of a record, block by block. */
+typedef struct {
+    size_t size; /* samples of a block; 0: none are summed up */
+    sums_about sum[BLOCKS];
+} record_blocks;
+
+/* Sums over the samples first … end − 1. */
+typedef struct {
+    const double *t, *x;
+    const record_blocks *blocks; /* NULL: none */
+    size_t first, end;
+    sums_about sum;
 } window_sums;
 
-static void add(window_sums *s, size_t k, double sign)
+static inline void add_to(sums_about *s, double t, double x, double sign)
 {
-    const double u = (s->t[k] - s->t0) / s->scale_s, v = s->x[k] - s->x0;
+    const double u = (t - s->t0) / s->scale_s, v = x - s->x0;
     double power = sign;
     for (int j = 0; j < 5; ++j, power *= u) {
         s->moment[j] += power;
@@ -99,19 +114,74 @@ static void add(window_sums *s, size_t k, double sign)
     }
 }
 
+static void add(window_sums *s, size_t k, double sign)
+{
+    add_to(&s->sum, s->t[k], s->x[k], sign);
+}
+
+/* Nothing yet, about the middle of so many samples. */
+static sums_about sums_for(const double *t, const double *x, size_t first, size_t end)
+{
+    return (sums_about){.t0 = 0.5 * (t[first] + t[end - 1]),
+                        .x0 = x[(first + end) / 2],
+                        .scale_s = 0.5 * (t[end - 1] - t[first])};
+}
+
+/* Adds sums about another origin: with u = a u' + b and v = v' + d, by the binomial theorem. */
+static void add_block(sums_about *s, const sums_about *block)
+{
+    static const double BINOMIAL[5][5] = {
+        {1.0}, {1.0, 1.0}, {1.0, 2.0, 1.0}, {1.0, 3.0, 3.0, 1.0}, {1.0, 4.0, 6.0, 4.0, 1.0}};
+    const double a = block->scale_s / s->scale_s, b = (block->t0 - s->t0) / s->scale_s, d = block->x0 - s->x0;
+    double of_a[5] = {1.0}, of_b[5] = {1.0};
+    for (int j = 1; j < 5; ++j) {
+        of_a[j] = of_a[j - 1] * a;
+        of_b[j] = of_b[j - 1] * b;
+    }
+    for (int j = 0; j < 5; ++j)
+        for (int k = 0; k <= j; ++k) {
+            const double weight = BINOMIAL[j][k] * of_a[k] * of_b[j - k];
+            s->moment[j] += weight * block->moment[k];
+            if (j < 3) s->product[j] += weight * (block->product[k] + d * block->moment[k]);
+        }
+}
+
+static void blocks_make(const double *t, const double *x, size_t n, record_blocks *blocks)
+{
+    blocks->size = n / BLOCKS;
+    for (size_t b = 0; b < BLOCKS && blocks->size > 1; ++b) {
+        const size_t first = b * blocks->size, end = first + blocks->size;
+        sums_about sum = sums_for(t, x, first, end);
+        for (size_t k = first; k < end; ++k)
+            add_to(&sum, t[k], x[k], 1.0);
+        blocks->sum[b] = sum;
+    }
+}
+
+/* Sums over samples about an origin; those that are added to are none of the samples, which the compiler does
+ * not know. */
+static sums_about range_add(const window_sums *s, sums_about sum, size_t first, size_t end)
+{
+    for (size_t k = first; k < end; ++k)
+        add_to(&sum, s->t[k], s->x[k], 1.0);
+    return sum;
+}
+
 static void start(window_sums *s, size_t first, size_t end)
 {
+    const size_t size = s->blocks ? s->blocks->size : 0, blocks_end = size * BLOCKS;
+    sums_about sum = sums_for(s->t, s->x, first, end);
     s->first = first;
     s->end = end;
-    s->t0 = 0.5 * (s->t[first] + s->t[end - 1]);
-    s->x0 = s->x[(first + end) / 2];
-    s->scale_s = 0.5 * (s->t[end - 1] - s->t[first]);
-    for (int j = 0; j < 5; ++j)
-        s->moment[j] = 0.0;
-    for (int j = 0; j < 3; ++j)
-        s->product[j] = 0.0;
-    for (size_t k = first; k < end; ++k)
-        add(s, k, 1.0);
+    if (size > 1 && end - first >= BLOCKS_LEAST * size) {
+        const size_t from = (first + size - 1) / size * size;
+        size_t k = from;
+        sum = range_add(s, sum, first, from);
+        for (; k + size <= end && k < blocks_end; k += size)
+            add_block(&sum, &s->blocks->sum[k / size]);
+        first = k;
+    }
+    s->sum = range_add(s, sum, first, end);
 }
 
 static double determinant(const double a[3], const double b[3], const double c[3])
@@ -123,13 +193,14 @@ static double determinant(const double a[3], const double b[3], const double c[3
 /* Slope at time t of v = c_0 + c_1 u + c_2 u²; a straight line where the samples bear no parabola. */
 static double rate_at(const window_sums *s, double t)
 {
-    const double *m = s->moment, *v = s->product, u = (t - s->t0) / s->scale_s;
+    const double *m = s->sum.moment, *v = s->sum.product, scale_s = s->sum.scale_s;
+    const double u = (t - s->sum.t0) / scale_s;
     const double whole = determinant(m, m + 1, m + 2), line = m[0] * m[2] - m[1] * m[1];
     if (whole > 1e-9 * m[0] * m[2] * m[4]) {
         const double c1 = determinant(m, v, m + 2) / whole, c2 = determinant(m, m + 1, v) / whole;
-        return (c1 + 2.0 * c2 * u) / s->scale_s;
+        return (c1 + 2.0 * c2 * u) / scale_s;
     }
-    return (m[0] * v[1] - m[1] * v[0]) / line / s->scale_s;
+    return (m[0] * v[1] - m[1] * v[0]) / line / scale_s;
 }
 
 /* ---- how long a window must be ---- */
@@ -194,6 +265,9 @@ typedef struct {
 static size_t window_grow(window_sums *s, size_t n, size_t window, const noise_law *law)
 {
     double rate[PROBES];
+    record_blocks blocks;
+    blocks_make(s->t, s->x, n, &blocks);
+    s->blocks = &blocks;
     for (size_t next = window + window / 2; next <= most_of(n); window = next, next += next / 2) {
         const double length = (double)window, longer = (double)next;
         const size_t probes = probes_of(n, window);
@@ -203,6 +277,7 @@ static size_t window_grow(window_sums *s, size_t n, size_t window, const noise_l
         const double explained = variance * (1.0 - pow(length / longer, law->power));
         if (change_by(s, n, window, next, probes, rate) > UNEXPLAINED * explained) break;
     }
+    s->blocks = NULL;
     return window;
 }
 

@@ -34,9 +34,9 @@ bool hci_ridge_make(const hci_condensed *rows, const hci_expectation *expected, 
 {
     const size_t n = rows->n;
     memset(p, 0, sizeof *p);
-    p->n = n;
     p->factor = hci_memory_new(n * n + 2 * n + 1, sizeof *p->factor);
     if (!p->factor) return false;
+    p->n = n;
     p->scale = p->factor + n * n;
     p->mean = p->scale + n;
     matrix_fill(rows, expected, p);

@@ -1,5 +1,7 @@
 #include "host/recording/rotor_frame.h"
 
+#include <math.h>
+
 hci_dq hci_run_dq(const hci_run *run, int pole_pairs, size_t k)
 {
     const double theta_m_rad = run->theta_m_rad ? run->theta_m_rad[k] : 0.0;
@@ -14,4 +16,43 @@ hci_dq hci_sample_dq(const hci_sample *sample, int pole_pairs)
 void hci_phases_of_dq(hci_dq x, double theta_e_rad, double abc[3])
 {
     hci_clarke_inverse(hci_park_inverse(x, theta_e_rad), abc);
+}
+
+/* ---- crests ---- */
+
+#define ALIKE 1e-6 /* of the extreme value: the same number, turned to phases and back */
+#define NEAR  0.05 /* of it: the values beside its crests, where it is not rounded more coarsely */
+#define SHARE 0.01 /* of the samples */
+#define HALF  0.5  /* of them: more is a current that is constant */
+#define TIMES 5.0  /* as often as all values near it together; a coarse sine has 2.4 at most */
+
+enum { PHASES = 3, LEAST = 200 };
+
+/* i_a, i_b, i_c, i_q */
+static double value_of(const hci_run *run, int which, size_t k)
+{
+    return which < PHASES ? run->i_A[PHASES * k + (size_t)which] : hci_run_dq(run, run->pole_pairs, k).q;
+}
+
+/* Of the crests of one sign. */
+static bool is_cut(const hci_run *run, int which, double sign)
+{
+    double most_A = 0.0, at = 0.0, near = 0.0;
+    for (size_t k = 0; k < run->count; ++k)
+        most_A = fmax(most_A, sign * value_of(run, which, k));
+    for (size_t k = 0; k < run->count && most_A > 0.0; ++k) {
+        const double below = 1.0 - sign * value_of(run, which, k) / most_A;
+        at += below < ALIKE;
+        near += below >= ALIKE && below < NEAR;
+    }
+    return at > SHARE * (double)run->count && at < HALF * (double)run->count && at > TIMES * near &&
+           near > 0.0;
+}
+
+bool hci_run_is_clipped(const hci_run *run)
+{
+    if (!run->i_A || !run->theta_m_rad || run->count < LEAST) return false;
+    for (int which = 0; which <= PHASES; ++which)
+        if (is_cut(run, which, 1.0) || is_cut(run, which, -1.0)) return true;
+    return false;
 }

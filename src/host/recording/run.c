@@ -364,6 +364,7 @@ static hci_status read_dq(reader *r, hci_run_column d, hci_run_column q, double 
     if (status) return status;
     *phases = hci_memory_new(r->run->count, 3 * sizeof(double));
     if (*phases == NULL) return memory_error(r);
+    if (d == HCI_RUN_ID) r->run->lacks_id = has(r, q) && !has(r, d);
     if (has(r, q)) status = turn_dq(r, r->columns.value[d], r->columns.value[q], *phases);
     hci_run_column_drop(&r->columns, d);
     hci_run_column_drop(&r->columns, q);
@@ -492,6 +493,17 @@ static bool nothing_turns(const hci_run *run)
     return hypot(d, q) <= NOISE_OF_MEAN * sqrt(square);
 }
 
+static void say_clipped(reader *r)
+{
+    hci_run *run = r->run;
+    run->is_clipped = hci_run_is_clipped(run);
+    if (run->is_clipped)
+        hci_note_add(
+            &run->remark,
+            "the crests of the current are all of one value, as of a limit or of a sensor at its end: "
+            "what is above is missing in all that the current tells");
+}
+
 /* Frees a torque of 0 of a machine whose terminals are open: what turns it is not its current, so that it is
  * no holding test, and its torque is not 0 but was not measured. */
 static void drop_zero_of_open(reader *r)
@@ -513,6 +525,7 @@ static hci_status read_torque(reader *r)
     hci_status status = read_column(r, HCI_RUN_TORQUE, &run->torque_Nm);
     if (!status) status = drop_computed(r);
     if (status) return status;
+    say_clipped(r);
     drop_typed(r);
     drop_zero_of_open(r);
     hci_run_computed_torque_leave(&r->columns);

@@ -73,17 +73,34 @@ static bool looks_like_angle(const char *name)
     return false;
 }
 
-/* The header of a column that is likely to be the angle; NULL: none. */
-static const char *likely_angle(const hci_run_columns *c)
+/* The header of the first column after another one that is likely to be the angle; NULL: none. */
+static const char *next_likely_angle(const hci_run_columns *c, size_t *column_after)
 {
-    for (size_t column = 0; column < hci_csv_columns(c->csv); ++column) {
+    for (size_t column = *column_after; column < hci_csv_columns(c->csv); ++column) {
         const char *name = hci_csv_name(c->csv, column);
         bool known = false;
         for (int k = 0; k < HCI_RUN_COLUMN_COUNT; ++k)
             known = known || (c->has[k] && c->at[k] == column);
+        *column_after = column + 1;
         if (!known && (hci_csv_counts(name) || looks_like_angle(name))) return name;
     }
     return NULL;
+}
+
+static const char *likely_angle(const hci_run_columns *c)
+{
+    size_t first = 0;
+    return next_likely_angle(c, &first);
+}
+
+/* Where several may be it, the reader has to choose: that of the rotor, not of a shaft behind a gear. */
+static void say_other_angles(const hci_run_columns *c, hci_note *missing)
+{
+    size_t column = 0;
+    next_likely_angle(c, &column);
+    for (const char *name; (name = next_likely_angle(c, &column)) != NULL;)
+        hci_note_add(missing, "so may `%.60s` be; take that of the rotor, not of a shaft behind a gear",
+                     name);
 }
 
 /* The first column in volts, under a name that is not known; NULL: none. */
@@ -125,6 +142,7 @@ void hci_run_columns_say_angle(const hci_run_columns *c, hci_note *missing)
                      "theta_m_rad; theta_e of an "
                      "electrical angle)",
                      name, name);
+    say_other_angles(c, missing);
 }
 
 /* ---- counts of an encoder ---- */

@@ -8,6 +8,7 @@
 #include "host/base/path.h"
 #include "host/base/quote.h"
 #include "host/csv/most_rows.h"
+#include "host/recording/computed_torque.h"
 #include "host/recording/run_columns.h"
 #include "host/recording/untold_torque.h"
 
@@ -234,6 +235,7 @@ hci_status hci_runs_read(const char *path, const hci_runs_options *options, hci_
     if (!status && l.run.columns_found == NULL) status = memory_error(&l);
     if (!status) status = read_rows(&l);
     if (!status) status = check_found(&l);
+    if (!status) status = hci_estimated_torques_leave(runs->run, runs->count, &options->run, note);
     if (!status) status = hci_untold_torques_join(runs->run, runs->count, &options->run, note);
     hci_memory_free(l.run.columns_found);
     hci_column_names_release(&columns);

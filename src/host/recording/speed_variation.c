@@ -10,6 +10,7 @@
 
 #define SAME_PACE 2.0  /* mean speeds of neighbouring windows within this factor */
 #define PAUSE     0.2  /* of the mean speed of the run */
+#define GOES      0.5  /* of it, with which a shaft that stood goes on */
 #define ENOUGH    0.2  /* of the samples */
 #define OTHER     0.01 /* of the rows, whose speed has the other sign */
 
@@ -90,9 +91,38 @@ bool hci_speed_variation(const hci_run *run, int pole_pairs, double *share)
     return true;
 }
 
+/* ---- stops on the way ---- */
+
+#define STOP_TURNS 0.05 /* electrical, over which the speed is looked at at its mean pace */
+
 static int sign_of(double x)
 {
     return (x > 0.0) - (x < 0.0);
+}
+
+size_t hci_speed_stops(const hci_run *run, int pole_pairs, double *path_turns)
+{
+    const double *x = run->theta_m_rad;
+    size_t stops = 0;
+    int before = 0;
+    bool stands = false;
+    *path_turns = 0.0;
+    if (run->time_s == NULL || x == NULL || run->count < LEAST) return 0;
+    for (size_t k = 0; k + 1 < run->count; ++k)
+        *path_turns += fabs(x[k + 1] - x[k]) * pole_pairs / (2.0 * HCI_PI);
+    const double samples = 0.5 * STOP_TURNS * (double)run->count / *path_turns;
+    if (!(samples < (double)(run->count / 8))) return 0;
+    const size_t half = (size_t)samples + 1;
+    const double pace_rad = STOP_TURNS * 2.0 * HCI_PI / pole_pairs;
+    for (size_t k = half; k + half < run->count; ++k) {
+        const double way_rad = x[k + half] - x[k - half];
+        if (fabs(way_rad) < PAUSE * pace_rad) stands = true;
+        if (fabs(way_rad) < GOES * pace_rad) continue;
+        stops += stands && sign_of(way_rad) == before;
+        stands = false;
+        before = sign_of(way_rad);
+    }
+    return stops;
 }
 
 size_t hci_speed_sign_changes(const double *x, size_t count)

@@ -11,6 +11,12 @@
  * without time or with too few such samples does not tell. False: no memory. O(samples). */
 bool hci_speed_variation(const hci_run *run, int pole_pairs, double *share);
 
+/* How often the shaft has come to rest on its way and gone on in the same direction: its speed over a
+ * twentieth of an electrical turn has fallen below a fifth of its mean pace. Where it stands longer and slips
+ * further than half an electrical turn, hci_speed_variation finds no pace to compare with. *path_turns: out,
+ * electrical turns there and back. 0 without time or angle. O(samples). */
+size_t hci_speed_stops(const hci_run *run, int pole_pairs, double *path_turns);
+
 /* How often a speed changes its sign: below HCI_SPEED_SIGN_CHANGES it is not noise around 0. */
 enum { HCI_SPEED_SIGN_CHANGES = 4 };
 size_t hci_speed_sign_changes(const double *speed, size_t count);

@@ -105,6 +105,25 @@ static hci_status find_ways(task *t)
     return status ? memory_error(t) : HCI_OK;
 }
 
+/* Stops in an electrical turn, and at least, of a shaft that sticks and slips; one that is turned in plateaus
+ * stops less. */
+#define STOPS_A_TURN 0.5
+enum { LEAST_STOPS = 4 };
+
+static void judge_stops(hci_run *run)
+{
+    double path_turns;
+    const size_t stops = hci_speed_stops(run, run->pole_pairs, &path_turns);
+    if (run->is_unsteady || stops < LEAST_STOPS || !((double)stops > STOPS_A_TURN * path_turns)) return;
+    run->is_unsteady = true;
+    hci_note_add(
+        &run->remark,
+        "the shaft comes to rest %zu times on its way and goes on, in %.3g electrical turns there and "
+        "back: it sticks and slips, or goes in steps, so that its current answers acceleration and "
+        "breakaway, and orders found in it are not those of cogging torque",
+        stops, path_turns);
+}
+
 /* Told where the current answers breakaway and acceleration, and not cogging torque alone. */
 static hci_status judge_speed(const task *t)
 {
@@ -122,6 +141,7 @@ static hci_status judge_speed(const task *t)
                          ? "; or its stamps, which come early and late by turns, are too coarse to tell, and "
                            "rows of an even period, or a column of the speed, would"
                          : "");
+    judge_stops(run);
     return HCI_OK;
 }
 
@@ -214,6 +234,7 @@ static hci_status free_or_held(task *t)
             hci_note_add(&run->remark,
                          "its slopes show next to nothing of a torque of an electrical order above %.3g",
                          run->torque_reach);
+        if (hci_is_slow(run, run->pole_pairs)) judge_stops(run);
         return HCI_OK;
     }
     hci_memory_free(run->torque_Nm);

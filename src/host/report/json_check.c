@@ -155,6 +155,8 @@ char *hci_drive_facts_json(const hci_drive_facts *f)
     put_axes(&json, "bandwidth_Hz", f->bandwidth_Hz);
     hci_json_number(&json, "lead_s", f->lead_s);
     hci_json_number(&json, "largest_pole", f->largest_pole);
+    hci_json_number(&json, "peak_d", f->peak[0]);
+    hci_json_number(&json, "peak_q", f->peak[1]);
     hci_json_number(&json, "gain_margin", f->gain_margin);
     hci_json_number(&json, "stable_rad_per_s", f->stable_rad_per_s);
     hci_json_number(&json, "sampled_rad_per_s", f->sampled_rad_per_s);

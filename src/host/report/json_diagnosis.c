@@ -141,6 +141,7 @@ char *hci_diagnosis_json(const hci_diagnosis *d, const hci_resolution *r)
     hci_json_bool(&json, "contradicted_by_holdout", d->contradicted);
     hci_json_bool(&json, "does_not_repeat", d->wanders);
     hci_json_bool(&json, "magnetic_only", d->magnetic_only);
+    hci_json_text(&json, "disagrees", d->odd.file ? d->odd.file : "");
     hci_json_text(&json, "left_out", d->disbelieved ? d->disbelieved : "");
     put_lists(&json, d);
     if (d->again) hci_again_put(&json, d->again);

@@ -71,6 +71,9 @@ char *hci_emit_loop_json(const hci_emit_loop_request *request, const hci_emit_lo
     hci_json_number(&json, "voltage_rpm", r->voltage_rad_per_s * 30.0 / HCI_PI);
     hci_json_number(&json, "sampled_rpm", r->sampled_rad_per_s * 30.0 / HCI_PI);
     hci_json_number(&json, "measured_rpm", r->measured_rad_per_s * 30.0 / HCI_PI);
+    hci_json_number(&json, "response_error", r->response_error);
+    hci_json_number(&json, "response_ripple", r->response_ripple_percent);
+    hci_json_number(&json, "response_rpm", r->response_rad_per_s * 30.0 / HCI_PI);
     hci_json_number(&json, "crc32", r->crc32);
     return hci_json_end(&json);
 }

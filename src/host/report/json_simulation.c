@@ -95,6 +95,7 @@ static void put_result(hci_json *json, hci_remedy remedy, const hci_speed_result
     hci_json_number(json, "mean_Nm", x->mean_Nm);
     hci_json_number(json, "T_ripple", x->T_ripple_percent);
     hci_json_number(json, "F_ripple", x->F_ripple_percent);
+    hci_json_number(json, "ripple_Nm", x->ripple_Nm);
     hci_json_number(json, "worst_T_ripple", x->worst_T_ripple_percent);
     hci_json_number(json, "peak_phase_A", x->peak_A);
     hci_json_number(json, "peak_line_V", x->line_V);
@@ -107,7 +108,9 @@ static void put_row(hci_json *json, const hci_speed_row *row)
     hci_json_object(json, NULL);
     hci_json_number(json, "speed_rpm", hci_rpm(row->speed_rad_per_s));
     hci_json_number(json, "needed_dc_link_V", row->needed_V);
+    hci_json_number(json, "back_emf_V", row->back_emf_V);
     hci_json_number(json, "orders_short", (double)row->orders_short);
+    hci_json_number(json, "response_ripple", row->response_ripple_percent);
     hci_json_array(json, "remedies");
     for (int k = 0; k < HCI_REMEDIES; ++k)
         put_result(json, (hci_remedy)k, &row->remedy[k]);
@@ -121,11 +124,13 @@ char *hci_speeds_json(const hci_speeds *s)
     hci_summary_begin(&json, "simulate");
     hci_json_number(&json, "torque_Nm", s->torque_Nm);
     hci_json_number(&json, "dc_link_V", s->dc_link_V);
+    hci_json_number(&json, "reached_V", s->reached_V);
     hci_json_number(&json, "lead_s", s->lead_s);
     hci_json_number(&json, "model_error_percent", 100.0 * s->model_error);
     hci_json_number(&json, "voltage_rpm", hci_rpm(s->voltage_rad_per_s));
     hci_json_number(&json, "sampled_rpm", hci_rpm(s->sampled_rad_per_s));
     hci_json_number(&json, "measured_rpm", hci_rpm(s->measured_rad_per_s));
+    hci_json_number(&json, "response_error", s->response_error);
     hci_json_object(&json, "harmful_from_rpm");
     for (int k = HCI_REMEDY_TABLE; k < HCI_REMEDIES; ++k)
         hci_json_number(&json, hci_remedy_name((hci_remedy)k), hci_rpm(s->harmful_rad_per_s[k]));

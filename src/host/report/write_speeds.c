@@ -29,7 +29,8 @@ static void write_row(hci_output *out, const hci_speed_row *row, hci_remedy reme
     hci_output_number(out, x->peak_A, ',');
     hci_output_number(out, x->line_V, ',');
     hci_output_number(out, row->needed_V, ',');
-    hci_output_number(out, x->limited_share, '\n');
+    hci_output_number(out, x->limited_share, ',');
+    hci_output_number(out, x->ripple_Nm, '\n');
 }
 
 static hci_status write_csv(hci_output *out, const hci_speeds *s, hci_note *note)
@@ -38,7 +39,7 @@ static hci_status write_csv(hci_output *out, const hci_speeds *s, hci_note *note
     if (status) return status;
     hci_output_text(out,
                     "speed_rpm,remedy,T_ripple_percent,F_ripple_percent,worst_T_ripple_percent,torque_Nm,"
-                    "peak_phase_A,peak_line_V,needed_dc_link_V,limited_share\n");
+                    "peak_phase_A,peak_line_V,needed_dc_link_V,limited_share,ripple_Nm\n");
     for (size_t k = 0; k < s->count; ++k)
         for (int r = 0; r < HCI_REMEDIES; ++r)
             write_row(out, &s->row[k], (hci_remedy)r);

@@ -1,6 +1,7 @@
 /* Speed control, current control and their sample times. */
 #include <math.h>
 
+#include "host/drive/machine_model.h"
 #include "host/simulate/setup_task.h"
 
 static hci_status count_sample(const hci_setup_task *b, const char *name, double value_s, double fallback_s,
@@ -32,6 +33,46 @@ static void set_dead_time(const hci_setup_task *b)
     drive->dead_time.crossing_A = hci_value_or(s->dead_time_crossing_A, 0.0);
     if (hci_value_or(s->dead_time_compensation, 0.0) > 0.5)
         drive->control.current.dead_time = drive->dead_time;
+}
+
+static hci_status check_dead_time(const hci_setup_task *b)
+{
+    const hci_control *control = &b->setup->drive.control;
+    const double dead_s = hci_value_or(b->scenario->dead_time_s, 0.0),
+                 sample_s = control->step_s * control->current_every;
+    if (dead_s < 0.5 * sample_s * (1.0 - 1e-9)) return HCI_OK;
+    return hci_setup_wrong(
+        b, "`dead_time` is %g s, expected less than half of `current_sample_time`, which is %g s", dead_s,
+        sample_s);
+}
+
+/* A loop that is not stable may be what is to be seen, but not what nobody said. */
+static void remark_stability(const hci_setup_task *b)
+{
+    const hci_control *control = &b->setup->drive.control;
+    const hci_pi *pi = control->current.pi;
+    hci_note ignored = {{0}};
+    hci_machine_model m;
+    if (hci_machine_model_make(b->machine, &m, &ignored)) return;
+    const hci_loop_model loop = {.resistance_ohm = m.resistance_ohm,
+                                 .inductance_H = {m.inductance_H[0], m.inductance_H[1]},
+                                 .kp_ohm = {pi[0].proportional, pi[1].proportional},
+                                 .ki_ohm_per_s = {pi[0].integral_per_s, pi[1].integral_per_s},
+                                 .filter = control->current.filter,
+                                 .sample_s = control->step_s * control->current_every,
+                                 .delay_s = control->step_s * (double)control->current.delay_steps,
+                                 .speed_rad_per_s =
+                                     hci_value_or(b->scenario->prescribed_speed_rad_per_s, 0.0) *
+                                     b->machine->model.pole_pairs,
+                                 .decoupled = control->current.decoupled};
+    const double pole = hci_loop_largest_pole(&loop);
+    hci_machine_model_release(&m);
+    if (pole >= 1.0)
+        hci_note_add(
+            &b->setup->remark,
+            "the current loop is not stable with a k_p of %.4g V/A and a k_i of %.4g V/(A*s): largest pole "
+            "%.4g, and what is simulated is how it swings",
+            pi[0].proportional, pi[0].integral_per_s, pole);
 }
 
 static hci_status set_delay(const hci_setup_task *b)
@@ -98,7 +139,8 @@ static hci_status set_current_control(const hci_setup_task *b)
     if (control->dc_link_V <= 0.0)
         return hci_note_set(b->note, HCI_ERROR_INPUT, "machine.csv: expected `dc_link_voltage` above zero");
     if (control->loop == HCI_CURRENT_PI) set_current_pi(b);
-    if (control->loop == HCI_CURRENT_PI && set_delay(b)) return HCI_ERROR_INPUT;
+    if (control->loop == HCI_CURRENT_PI && (set_delay(b) || check_dead_time(b))) return HCI_ERROR_INPUT;
+    if (control->loop == HCI_CURRENT_PI && !b->loop) remark_stability(b);
     if (control->loop == HCI_CURRENT_HYSTERESIS && set_hysteresis(b)) return HCI_ERROR_INPUT;
     return hci_setup_need(b, control->dc_link_V, "dc_link_voltage", "V",
                           "an inverter needs (or give it in the scenario)");

@@ -156,6 +156,16 @@ static hci_status fill_table(const hci_setup_task *b)
                   : HCI_OK;
 }
 
+/* Friction of the shaft is the sum of what both say. */
+static void remark_friction(const hci_setup_task *b, double declared_Nm)
+{
+    const double found_Nm = b->effects ? hci_effects_coulomb_Nm(b->effects) : 0.0;
+    if (!(declared_Nm > 0.0) || !(found_Nm > 0.0)) return;
+    hci_note_add(&b->setup->remark,
+                 "coulomb_friction, %.4g N·m, and the friction of effects.csv, %.4g N·m, both act: %.4g N·m",
+                 declared_Nm, found_Nm, declared_Nm + found_Nm);
+}
+
 static hci_status set_shaft(const hci_setup_task *b)
 {
     const hci_scenario *s = b->scenario;
@@ -173,6 +183,7 @@ static hci_status set_shaft(const hci_setup_task *b)
         hci_value_or(s->viscous_friction_Nms_per_rad, hci_value_or(m->viscous_friction_Nms_per_rad, 0.0));
     plant->coulomb_Nm = hci_value_or(s->coulomb_friction_Nm, hci_value_or(m->coulomb_friction_Nm, 0.0));
     plant->inertia_kgm2 = inertia;
+    remark_friction(b, plant->coulomb_Nm);
     if (inertia <= 0.0 || plant->viscous_Nms < 0.0 || plant->coulomb_Nm < 0.0)
         return hci_note_set(b->note, HCI_ERROR_INPUT,
                             "machine.csv: expected `inertia` above zero and friction of zero or more");

@@ -92,9 +92,13 @@ static void tell(const grid *g, double share)
         q->progress(q->progress_context, "simulating", ((double)g->done + share) / (double)g->runs);
 }
 
+/* So that the slowest speeds are told of too: some tens of milliseconds of a processor. */
+static const double TOLD_SAMPLES = 5000.0;
+
 static void tell_time(voltage_watch *w, double time_s)
 {
-    if (time_s - w->told_s < 0.01 * w->duration_s) return;
+    const double every_s = fmin(0.01 * w->duration_s, TOLD_SAMPLES * w->grid->request->drive->sample_s);
+    if (time_s - w->told_s < every_s) return;
     w->told_s = time_s;
     tell(w->grid, time_s / w->duration_s);
 }
@@ -143,6 +147,7 @@ static hci_status run(grid *g, const hci_machine_data *machine, hci_remedy remed
     *result = (hci_speed_result){.mean_Nm = s.torque_Nm.mean,
                                  .T_ripple_percent = s.T_ripple_percent,
                                  .F_ripple_percent = s.F_ripple_percent,
+                                 .ripple_Nm = s.torque_Nm.most - s.torque_Nm.least,
                                  .peak_A = s.peak_phase_A,
                                  .line_V = watch.line_V,
                                  .limited_share = (double)s.voltage_limited / (double)s.samples,
@@ -271,24 +276,71 @@ static double harmful_from(const hci_speeds *s, int remedy)
     return HUGE_VAL;
 }
 
-/* The dc link that the currents of the level nearest to the torque need. */
-static hci_status fill_needed(grid *g)
+static hci_loop_task task_of(const grid *g)
 {
     const hci_speeds_request *q = g->request;
-    const hci_loop_level *level = q->levels;
-    hci_machine_model model;
-    hci_turn_samples samples;
+    return (hci_loop_task){&g->machine,
+                           q->drive,
+                           q->levels,
+                           q->level_count,
+                           0.0,
+                           0.0,
+                           q->speed_count > 0 && q->speeds_rad_per_s[0] < 0.0};
+}
+
+/* The level nearest to the torque. */
+static size_t level_of(const hci_speeds_request *q)
+{
+    size_t level = 0;
     for (size_t k = 1; k < q->level_count; ++k)
-        if (fabs(q->levels[k].torque_Nm - q->torque_Nm) < fabs(level->torque_Nm - q->torque_Nm))
-            level = &q->levels[k];
-    hci_status status = hci_machine_model_make(&g->machine, &model, g->note);
-    if (status) return status;
-    status = hci_turn_samples_make(&model, NULL, level, &samples, g->note);
+        if (fabs(q->levels[k].torque_Nm - q->torque_Nm) < fabs(q->levels[level].torque_Nm - q->torque_Nm))
+            level = k;
+    return level;
+}
+
+/* What the points of loop.csv do not tell. */
+static void fill_response(grid *g)
+{
+    const hci_loop_task task = task_of(g);
+    g->result->response_error = hci_loop_set_response_error(&g->set);
+    for (size_t k = 0; k < g->result->count; ++k)
+        g->result->row[k].response_ripple_percent = hci_loop_set_response_percent(
+            &g->set, &task, level_of(g->request), g->result->row[k].speed_rad_per_s);
+}
+
+/* The dc link that currents need at each speed. */
+static hci_status find_links(const grid *g, const hci_machine_model *model, const hci_loop_level *level,
+                             double *(*of_row)(hci_speed_row *))
+{
+    hci_turn_samples samples;
+    const hci_status status = hci_turn_samples_make(model, NULL, level, &samples, g->note);
     for (size_t k = 0; k < g->result->count && !status; ++k)
-        g->result->row[k].needed_V =
-            hci_turn_samples_dc_link_V(&samples, model.resistance_ohm, q->drive->modulation,
+        *of_row(&g->result->row[k]) =
+            hci_turn_samples_dc_link_V(&samples, model->resistance_ohm, g->request->drive->modulation,
                                        g->result->row[k].speed_rad_per_s * g->machine.model.pole_pairs);
     hci_turn_samples_release(&samples);
+    return status;
+}
+
+static double *needed_of(hci_speed_row *row)
+{
+    return &row->needed_V;
+}
+
+static double *back_emf_of(hci_speed_row *row)
+{
+    return &row->back_emf_V;
+}
+
+/* Of the level nearest to the torque, and of no current. */
+static hci_status fill_needed(grid *g)
+{
+    const hci_loop_level none = {0.0, NULL, 0};
+    hci_machine_model model;
+    hci_status status = hci_machine_model_make(&g->machine, &model, g->note);
+    if (status) return status;
+    status = find_links(g, &model, &g->request->levels[level_of(g->request)], needed_of);
+    if (!status) status = find_links(g, &model, &none, back_emf_of);
     hci_machine_model_release(&model);
     return status;
 }
@@ -298,9 +350,16 @@ static hci_status check_torque(const hci_speeds_request *q, hci_note *note)
     const double low = q->levels[0].torque_Nm, high = q->levels[q->level_count - 1].torque_Nm;
     const double margin = 1e-9 * fmax(fabs(low), fabs(high));
     if (q->torque_Nm >= low - margin && q->torque_Nm <= high + margin) return HCI_OK;
+    if (q->level_count == 1)
+        return hci_note_set(
+            note, HCI_ERROR_ARGUMENT,
+            "a torque of %.8g N·m is asked of a table of one level, which makes %.8g N·m whatever is "
+            "asked for; with surface magnets --per-torque makes levels from -T to T of it, else give "
+            "the folders of several levels",
+            q->torque_Nm, low);
     return hci_note_set(
         note, HCI_ERROR_ARGUMENT,
-        "a torque of %g N·m is not among the levels of the table, %g to %g N·m; give the folder of "
+        "a torque of %.8g N·m is not within the levels of the table, %.8g to %.8g N·m; give the folder of "
         "another one",
         q->torque_Nm, low, high);
 }
@@ -308,13 +367,7 @@ static hci_status check_torque(const hci_speeds_request *q, hci_note *note)
 static hci_status prepare(grid *g)
 {
     const hci_speeds_request *q = g->request;
-    const hci_loop_task task = {&g->machine,
-                                q->drive,
-                                q->levels,
-                                q->level_count,
-                                0.0,
-                                0.0,
-                                q->speed_count > 0 && q->speeds_rad_per_s[0] < 0.0};
+    const hci_loop_task task = task_of(g);
     hci_status status = check_torque(q, g->note);
     if (!status) status = hci_drive_fit(q->drive, q->machine, &g->machine, g->note);
     for (size_t k = 0; k < q->speed_count && !status; ++k)
@@ -343,11 +396,13 @@ static hci_status fill(grid *g)
     for (size_t k = 0; k < r->count; ++k)
         r->row[k].speed_rad_per_s = q->speeds_rad_per_s[k];
     status = fill_needed(g);
+    fill_response(g);
     for (size_t k = 0; k < r->count && !status; ++k)
         status = run_speed(g, &r->row[k]);
     r->torque_Nm = q->torque_Nm;
     r->model_error = q->model_error;
     r->dc_link_V = q->drive->dc_link_voltage_V;
+    r->reached_V = r->dc_link_V * (1.0 - 2.0 * hci_drive_dead_share(q->drive));
     r->lead_s = (double)g->set.loop.lead_s;
     r->voltage_rad_per_s = g->set.voltage_rad_per_s;
     r->sampled_rad_per_s = g->set.sampled_rad_per_s;

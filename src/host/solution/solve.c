@@ -170,8 +170,8 @@ static hci_status fill_system(const hci_task *t, hci_answer *a, hci_solution *s,
     if (has_memory) {
         for (size_t k = 0; k < s->order_count; ++k)
             order[k] = s->order[k].torque_Nm.order;
-        hci_system_sparse(t->gradient, t->gradient_count, a->set.component, a->set.count, order,
-                          s->order_count, u->column_start, u->row, u->value);
+        hci_system_sparse(&(hci_mutual_torque){t->gradient, t->gradient_count, order, s->order_count},
+                          a->set.component, a->set.count, u->column_start, u->row, u->value);
         u->set = a->set;
         a->set = (hci_component_set){0};
     }

@@ -18,6 +18,10 @@
  * be enough. */
 #define MOST_SAMPLED 512.0
 
+/* Components that are not doubled any more: what a set of twice as many costs grows with their number to the
+ * third where orders have nothing but a mechanical turn in common. */
+#define MOST_DOUBLED 600
+
 typedef struct {
     const hci_task *task;
     double tolerance_Nm;
@@ -91,6 +95,14 @@ static bool is_all(const hci_task *t, double top_order)
     return t->highest_rotor_order > 0.0 && top_order > t->highest_rotor_order + 1.0;
 }
 
+/* Whether orders twice as high would be no answer any more: their current has a kink, or they cost too much.
+ */
+static bool is_most(const search *s, double top_order)
+{
+    const double waves = 2.0 * 2.0 * top_order * (double)s->task->period_turns;
+    return s->best.answer.set.count > MOST_DOUBLED || (s->task->higher && waves > MOST_SAMPLED);
+}
+
 /* Doubles *top until it is good enough; *below: the highest that was not. *found: whether there is such. */
 static hci_status find_upper(search *s, double *below, double *top, bool *found, hci_note *note)
 {
@@ -101,9 +113,7 @@ static hci_status find_upper(search *s, double *below, double *top, bool *found,
         status = solve_up_to(s->task, *top, &s->best, note);
         *found = !status && is_good_enough(s, &s->best);
         if (status || *found) return status;
-        if (doubling == DOUBLINGS || is_all(s->task, *top) ||
-            (s->task->higher && 2.0 * 2.0 * *top * (double)s->task->period_turns > MOST_SAMPLED))
-            return HCI_OK;
+        if (doubling == DOUBLINGS || is_all(s->task, *top) || is_most(s, *top)) return HCI_OK;
         *below = *top;
         *top *= 2.0;
     }

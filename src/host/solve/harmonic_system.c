@@ -92,7 +92,8 @@ static void fill_right_sides(const hci_task *t, hci_harmonic_system *b, hci_harm
         add_at(b, 1.0, t->offset[k], rest);
     if (t->held) {
         const hci_wave against = {t->held->order, t->held->sequence, -t->held->sine, -t->held->cosine};
-        hci_system_add_torque(t->gradient, t->gradient_count, &against, 1, b->order, b->order_count, rest);
+        hci_system_add_torque(&(hci_mutual_torque){t->gradient, t->gradient_count, b->order, b->order_count},
+                              &against, 1, rest);
     }
     if (b->order_count > 0 && b->order[0] < HCI_ORDER_TOLERANCE) b->h[0] = 1.0;
     hci_spectrum_to_rows(rest, b->order_count, b->h + b->rows);
@@ -185,8 +186,9 @@ hci_status hci_harmonic_system_make(const hci_task *task, const hci_component *c
         return hci_note_memory(note, NULL, "a system of %zu components", count);
     }
     fill_right_sides(task, system, rest);
-    hci_system_sparse(task->gradient, task->gradient_count, component, count, system->order,
-                      system->order_count, system->u.column_start, system->u.row, system->u.value);
+    hci_system_sparse(
+        &(hci_mutual_torque){task->gradient, task->gradient_count, system->order, system->order_count},
+        component, count, system->u.column_start, system->u.row, system->u.value);
     apply_weights(task, system);
     hci_memory_free(rest);
     if (!has_sizes(task, component, count) || fill_sizes(task, component, system)) return HCI_OK;

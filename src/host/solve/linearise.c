@@ -41,7 +41,8 @@ static hci_status half_product(const hci_wave_list *slope, const hci_wave *i, si
     for (size_t k = 0; k < torque->count; ++k)
         torque->harmonic[k] = (hci_harmonic){order[k], 0.0, 0.0};
     if (torque->harmonic)
-        hci_system_add_torque(slope->wave, slope->count, i, count, order, n, torque->harmonic);
+        hci_system_add_torque(&(hci_mutual_torque){slope->wave, slope->count, order, n}, i, count,
+                              torque->harmonic);
     for (size_t k = 0; k < torque->count; ++k) {
         torque->harmonic[k].sine *= 0.5;
         torque->harmonic[k].cosine *= 0.5;

@@ -92,8 +92,8 @@ static void fill_torque(const hci_task *t, const hci_torque_spectra *s, const ac
         add_harmonic(s, t->machine->cogging[k], torque);
     for (size_t k = 0; k < a->higher.count; ++k)
         add_harmonic(s, a->higher.harmonic[k], torque);
-    hci_system_add_torque(a->secant.wave, a->secant.count, a->current.wave, a->current.count, s->order,
-                          s->count, torque);
+    hci_system_add_torque(&(hci_mutual_torque){a->secant.wave, a->secant.count, s->order, s->count},
+                          a->current.wave, a->current.count, torque);
 }
 
 /* *torque: the spectrum of one current, or NULL where memory is out. */

@@ -93,9 +93,10 @@ static void remark_cogging(const hci_waveform_task *t)
                          : "the angle is electrical and wrapped: only whole electrical orders are told "
                            "apart");
     if (w->turns_forward + w->turns_backward > 0 && isnan(w->friction_Nm))
-        hci_note_add(&t->result->remark,
-                     "one direction only: friction is in the mean, and what of it follows the angle "
-                     "is in the orders");
+        hci_note_add(
+            &t->result->remark,
+            "whole turns of one direction only: friction is in the mean, and what of it follows the angle "
+            "is in the orders");
 }
 
 static hci_status cogging_of(const hci_waveform_task *t, double *value, double *angle)

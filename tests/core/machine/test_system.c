@@ -142,7 +142,8 @@ static void dense_times_x(const trial *t, const double *orders, size_t count, hc
     TEST_ASSERT_EQUAL_UINT64(rows, hci_orders_rows(orders, count));
     for (size_t k = 0; k < rows * 2 * t->component_count; ++k)
         u[k] = (double)NAN; /* all must be written */
-    hci_system_dense(t->emf, t->emf_count, t->component, t->component_count, orders, count, u);
+    hci_system_dense(&(hci_mutual_torque){t->emf, t->emf_count, orders, count}, t->component,
+                     t->component_count, u);
     for (size_t c = 0; c < 2 * t->component_count; ++c)
         for (size_t r = 0; r < rows; ++r)
             h[r] += u[r + c * rows] * t->x[c];
@@ -154,8 +155,8 @@ static void sparse_times_x(const trial *t, const double *orders, size_t count, h
     int64_t start[2 * MAX_COMPONENTS + 1], row[MAX_ENTRIES];
     double value[MAX_ENTRIES], h[MAX_ROWS] = {0.0};
     TEST_ASSERT_TRUE(hci_system_capacity(t->emf_count, t->component_count) <= MAX_ENTRIES);
-    hci_system_sparse(t->emf, t->emf_count, t->component, t->component_count, orders, count, start, row,
-                      value);
+    hci_system_sparse(&(hci_mutual_torque){t->emf, t->emf_count, orders, count}, t->component,
+                      t->component_count, start, row, value);
     for (size_t c = 0; c < 2 * t->component_count; ++c)
         for (int64_t p = start[c]; p < start[c + 1]; ++p)
             h[row[p]] += value[p] * t->x[c];
@@ -166,7 +167,8 @@ static void add_torque_once(const trial *t, const double *orders, size_t count, 
 {
     for (size_t k = 0; k < count; ++k)
         spectrum[k] = (hci_harmonic){orders[k], 0.0, 0.0};
-    hci_system_add_torque(t->emf, t->emf_count, t->current, t->component_count, orders, count, spectrum);
+    hci_system_add_torque(&(hci_mutual_torque){t->emf, t->emf_count, orders, count}, t->current,
+                          t->component_count, spectrum);
 }
 
 typedef void torque_method(const trial *t, const double *orders, size_t count, hci_harmonic *spectrum);
@@ -208,7 +210,7 @@ static void test_add_torque_adds_to_what_is_there(void)
     const hci_wave emf = hci_wave_polar(1, 1, 2.0, 0.0), current = hci_wave_polar(5, -1, 1.0, 0.0);
     const double orders[2] = {3, 6};
     hci_harmonic spectrum[2] = {{3, 0.25, 0.5}, {6, 0.75, 1.0}};
-    hci_system_add_torque(&emf, 1, &current, 1, orders, 2, spectrum);
+    hci_system_add_torque(&(hci_mutual_torque){&emf, 1, orders, 2}, &current, 1, spectrum);
     TEST_ASSERT_EQUAL_DOUBLE(0.25, spectrum[0].sine);
     TEST_ASSERT_EQUAL_DOUBLE(0.5, spectrum[0].cosine);
     TEST_ASSERT_EQUAL_DOUBLE(0.75, spectrum[1].sine);
@@ -223,7 +225,7 @@ static void expect_one(hci_wave emf, hci_wave current, double order, double a, d
     const hci_component component = {current.order, current.sequence};
     TEST_ASSERT_EQUAL_UINT64(1, hci_component_orders(&emf, 1, component, orders));
     TEST_ASSERT_EQUAL_DOUBLE(order, orders[0]);
-    hci_system_add_torque(&emf, 1, &current, 1, orders, 1, &spectrum);
+    hci_system_add_torque(&(hci_mutual_torque){&emf, 1, orders, 1}, &current, 1, &spectrum);
     TEST_ASSERT_DOUBLE_WITHIN(1e-14, order == 0.0 ? 0.0 : -a * sin(psi), spectrum.sine);
     TEST_ASSERT_DOUBLE_WITHIN(1e-14, a * cos(psi), spectrum.cosine);
 }
@@ -256,7 +258,7 @@ static void test_zero_sequences_make_both_sum_and_difference(void)
     hci_harmonic spectrum[2] = {{6, 0, 0}, {12, 0, 0}};
     TEST_ASSERT_EQUAL_UINT64(2, hci_component_orders(&third, 1, (hci_component){9, 0}, orders));
     TEST_ASSERT_EQUAL_UINT64(2, hci_orders_sort(orders, 2));
-    hci_system_add_torque(&third, 1, &ninth, 1, orders, 2, spectrum);
+    hci_system_add_torque(&(hci_mutual_torque){&third, 1, orders, 2}, &ninth, 1, spectrum);
     TEST_ASSERT_DOUBLE_WITHIN(1e-14, 2.1 * cos(0.8), spectrum[0].cosine);
     TEST_ASSERT_DOUBLE_WITHIN(1e-14, -2.1 * sin(0.8), spectrum[0].sine);
     TEST_ASSERT_DOUBLE_WITHIN(1e-14, -2.1 * cos(1.4), spectrum[1].cosine);
@@ -298,9 +300,10 @@ static void test_sparse_columns_ascend_and_equal_the_dense_ones(void)
         double orders[MAX_ORDERS], value[MAX_ENTRIES];
         draw(&t, &seed);
         const size_t count = reached_orders(&t, orders), rows = hci_orders_rows(orders, count);
-        hci_system_dense(t.emf, t.emf_count, t.component, t.component_count, orders, count, u);
-        hci_system_sparse(t.emf, t.emf_count, t.component, t.component_count, orders, count, start, row,
-                          value);
+        hci_system_dense(&(hci_mutual_torque){t.emf, t.emf_count, orders, count}, t.component,
+                         t.component_count, u);
+        hci_system_sparse(&(hci_mutual_torque){t.emf, t.emf_count, orders, count}, t.component,
+                          t.component_count, start, row, value);
         check_columns(&t, rows, start, row);
         for (size_t c = 0; c < 2 * t.component_count; ++c)
             for (int64_t p = start[c]; p < start[c + 1]; ++p)
@@ -343,7 +346,8 @@ static void test_a_balanced_star_column_has_one_pair_per_emf_harmonic(void)
         size_t active = 0;
         for (size_t j = 0; j < MAX_EMF; ++j)
             active += fmod(t.emf[j].order, 3.0) != 0.0;
-        hci_system_sparse(t.emf, MAX_EMF, t.component, MAX_COMPONENTS, orders, count, start, row, value);
+        hci_system_sparse(&(hci_mutual_torque){t.emf, MAX_EMF, orders, count}, t.component, MAX_COMPONENTS,
+                          start, row, value);
         for (size_t c = 0; c < 2 * MAX_COMPONENTS; ++c)
             TEST_ASSERT_TRUE(orders_in_column(row + start[c], start[c + 1] - start[c], orders[0] == 0.0) <=
                              active);
@@ -359,12 +363,12 @@ static void test_the_pattern_does_not_depend_on_values(void)
         double orders[MAX_ORDERS], value[MAX_ENTRIES];
         draw(&t, &seed);
         const size_t count = reached_orders(&t, orders);
-        hci_system_sparse(t.emf, t.emf_count, t.component, t.component_count, orders, count, start[0], row[0],
-                          value);
+        hci_system_sparse(&(hci_mutual_torque){t.emf, t.emf_count, orders, count}, t.component,
+                          t.component_count, start[0], row[0], value);
         for (size_t j = 0; j < t.emf_count; ++j)
             t.emf[j].sine = t.emf[j].cosine = 0.0;
-        hci_system_sparse(t.emf, t.emf_count, t.component, t.component_count, orders, count, start[1], row[1],
-                          value);
+        hci_system_sparse(&(hci_mutual_torque){t.emf, t.emf_count, orders, count}, t.component,
+                          t.component_count, start[1], row[1], value);
         const size_t columns = 2 * t.component_count;
         TEST_ASSERT_EQUAL_INT64_ARRAY(start[0], start[1], columns + 1);
         for (int64_t p = 0; p < start[0][columns]; ++p)
@@ -423,7 +427,8 @@ static void test_mirrored_and_exchanged_waves_make_the_same_torque(void)
         draw(&t, &seed);
         const size_t count = reached_orders(&t, orders);
         add_torque_once(&t, orders, count, torque);
-        hci_system_add_torque(t.current, t.component_count, t.emf, t.emf_count, orders, count, other);
+        hci_system_add_torque(&(hci_mutual_torque){t.current, t.component_count, orders, count}, t.emf,
+                              t.emf_count, other);
         TEST_ASSERT_DOUBLE_WITHIN(RELATIVE_ROUNDING * t.scale, 0.0, distance(torque, other, count));
         for (size_t j = 0; j < t.emf_count; ++j)
             t.emf[j].sequence = -t.emf[j].sequence;

@@ -530,12 +530,12 @@ static size_t least_squares(size_t m, size_t n, const double *a, double toleranc
 {
     double *qr = copy_of(m * n, a), *factor_work = doubles(hci_orthogonal_workspace(m, n));
     double *c = copy_of(m, b), *work = doubles(n);
-    size_t *column = indices(n), rank = 99;
-    TEST_ASSERT_EQUAL_INT(HCI_OK,
-                          hci_orthogonal_factor(m, n, qr, tolerance, column, factor_work, &rank, condition));
-    hci_orthogonal_solve(m, n, qr, column, factor_work, rank, c, x, work);
+    size_t *column = indices(n);
+    hci_orthogonal q = {.m = m, .n = n, .a = qr, .column = column, .work = factor_work, .rank = 99};
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_orthogonal_factor(&q, tolerance, condition));
+    hci_orthogonal_solve(&q, c, x, work);
     free(qr), free(factor_work), free(c), free(work), free(column);
-    return rank;
+    return q.rank;
 }
 
 /* X = A⁺, a column for each unit vector. */
@@ -675,16 +675,17 @@ static void test_orthogonal_norms_survive_cancellation(void)
     enum { M = 6, N = 4 };
     const double own[N] = {0.0, 1.0, 3.0, 2.0};
     double a[M * N], factor_work[64];
-    size_t column[N], rank = 0;
+    size_t column[N];
+    hci_orthogonal q = {.m = M, .n = N, .a = a, .column = column, .work = factor_work};
     TEST_ASSERT_TRUE(hci_orthogonal_workspace(M, N) <= 64);
     for (size_t j = 0; j < N; j++)
         for (size_t i = 0; i < M; i++)
             a[i + j * M] = (j == 0 ? 1.0 + 1e-6 : 1.0) + (i == j ? 1e-9 * own[j] : 0.0);
-    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_orthogonal_factor(M, N, a, 0.0, column, factor_work, &rank, NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_orthogonal_factor(&q, 0.0, NULL));
     const size_t expected[N] = {0, 2, 3, 1};
     for (size_t j = 0; j < N; j++)
         TEST_ASSERT_EQUAL_UINT(expected[j], column[j]);
-    TEST_ASSERT_EQUAL_UINT(4, rank);
+    TEST_ASSERT_EQUAL_UINT(4, q.rank);
 }
 
 /* Scaling by a power of two changes no digit; the squares of these elements are beyond the range of a double.
@@ -718,17 +719,16 @@ static void test_orthogonal_refuses_and_degenerates(void)
 {
     const double bad[] = {(double)NAN, HUGE_VAL, -HUGE_VAL};
     double factor_work[32], condition = 0.0;
-    size_t column[4], rank = 42;
+    size_t column[4];
     TEST_ASSERT_TRUE(hci_orthogonal_workspace(3, 4) <= 32);
     for (size_t position = 0; position < 12; position++)
         for (size_t k = 0; k < 3; k++) {
             double a[12] = {0};
             a[position] = bad[k];
-            TEST_ASSERT_EQUAL_INT(
-                HCI_ERROR_NOT_FINITE,
-                hci_orthogonal_factor(3, 4, a, 0.0, column, factor_work, &rank, &condition));
+            hci_orthogonal q = {.m = 3, .n = 4, .a = a, .column = column, .work = factor_work, .rank = 42};
+            TEST_ASSERT_EQUAL_INT(HCI_ERROR_NOT_FINITE, hci_orthogonal_factor(&q, 0.0, &condition));
+            TEST_ASSERT_EQUAL_UINT(42, q.rank); /* untouched */
         }
-    TEST_ASSERT_EQUAL_UINT(42, rank); /* untouched */
 
     double zero[12] = {0}, b[3] = {1, 2, 3}, x[4] = {9, 9, 9, 9};
     TEST_ASSERT_EQUAL_UINT(0, least_squares(3, 4, zero, 0.0, b, x, &condition));

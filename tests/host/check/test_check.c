@@ -340,6 +340,9 @@ static void test_slips_of_the_emf(void)
         {"emf_rms", 0.0707106781},                       /* 0.1/√2 */
         {"emf_line", 0.1732050808},                      /* 0.1·√3 */
         {"emf_line_rms", 0.1224744871},                  /* 0.1·√3/√2 */
+        {"emf_taken_for_rms", 0.1414213562},             /* 0.1·√2 */
+        {"emf_taken_for_line", 0.0577350269},            /* 0.1/√3 */
+        {"emf_taken_for_line_rms", 0.0816496581},        /* 0.1·√2/√3 */
         {"emf_volt_per_krpm", 10.471975512},             /* 0.1·104.71975512 */
         {"emf_volt_per_krpm_line", 18.137993642},        /* ·√3 */
         {"emf_volt_per_krpm_line_rms", 12.825498301},    /* ·√3/√2 */

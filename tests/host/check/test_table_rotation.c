@@ -127,6 +127,20 @@ static void test_the_index_of_a_table_in_the_frame(void)
     }
 }
 
+/* A table whose currents are all 0 is in no recording, and no share of it either. */
+static void test_a_table_of_nothing_is_not_found(void)
+{
+    hci_wave nothing = hci_wave_polar(1.0, 1, 0.0, 0.0);
+    table = (hci_currents){.wave = wave, .count = 3};
+    play(0.0, 1.0, 0.0, 1, 1);
+    table = (hci_currents){.wave = &nothing, .count = 1};
+    const hci_table_rotation x = compare();
+    TEST_ASSERT_FALSE(x.is_found || x.is_rotated);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, x.gain);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.0, x.left);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.0, x.left_as_is);
+}
+
 /* A difference that no rotation lessens is none that a rotation mends. */
 static void test_what_mends_nothing_is_no_rotation(void)
 {
@@ -224,6 +238,7 @@ int main(void)
     RUN_TEST(test_the_error_is_that_of_the_noise);
     RUN_TEST(test_backwards);
     RUN_TEST(test_the_index_of_a_table_in_the_frame);
+    RUN_TEST(test_a_table_of_nothing_is_not_found);
     RUN_TEST(test_what_mends_nothing_is_no_rotation);
     RUN_TEST(test_which_of_the_turns);
     RUN_TEST(test_other_pole_pairs);

@@ -69,16 +69,27 @@ static void test_a_slip_is_not_searched(void)
     TEST_ASSERT_NOT_NULL(strstr(words, "phases b and c are swapped"));
 }
 
-/* What is wrong in a run that is held out shows in its error and nowhere else. */
+/* What is wrong in a run that is held out is said of that run, and shows in nothing else. */
 static void test_a_run_held_out_takes_no_part(void)
 {
     record_map(0.0, 0.0);
     record(450, &(point){60.0, 2.0, 0.0, 0.05, 0.0});
     role[4] = HCI_ROLE_HOLDOUT;
-    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
     TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_COMPLETE, diagnosis.verdict);
+    TEST_ASSERT_EQUAL_STRING(run[4].name, diagnosis.odd.file);
     TEST_ASSERT_DOUBLE_WITHIN(0.06 * NOISE_NM, NOISE_NM, diagnosis.rms_after_Nm);
-    TEST_ASSERT_DOUBLE_WITHIN(0.06 * 0.05, sqrt(0.0025 + NOISE_NM * NOISE_NM), diagnosis.holdout_after_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(0.06 * 0.05, sqrt(0.0025 + NOISE_NM * NOISE_NM), diagnosis.odd.rms_Nm);
+}
+
+/* Beside a noise that is half of the rated torque nothing is called complete. */
+static void test_noise_as_large_as_the_rated_torque(void)
+{
+    record_map(0.0, 0.0);
+    machine.rated_torque_Nm = 2.0 * NOISE_NM;
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_UNKNOWN, diagnosis.verdict);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0 * NOISE_NM, diagnosis.drowned_Nm);
 }
 
 /* One run is held out: it takes no part, and gets better all the same. */
@@ -373,6 +384,7 @@ int main(void)
     RUN_TEST(test_nothing_is_missing);
     RUN_TEST(test_a_slip_is_not_searched);
     RUN_TEST(test_a_run_held_out_takes_no_part);
+    RUN_TEST(test_noise_as_large_as_the_rated_torque);
     RUN_TEST(test_current_offset);
     RUN_TEST(test_noise_of_currents_is_no_sensor);
     RUN_TEST(test_holding_map);

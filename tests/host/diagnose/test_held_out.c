@@ -114,6 +114,56 @@ static void test_a_rise_is_seen(void)
     search_end();
 }
 
+/* An error that stands out of a noise that is known well, by less than half of it, and of which three
+ * quarters are left. A slope is not known that well. */
+static void test_a_small_error_that_hardly_falls_is_seen(void)
+{
+    hci_run_errors error = {
+        .role = HCI_ROLE_HOLDOUT, .rms_before_Nm = 0.0143, .rms_after_Nm = 0.0133, .noise_floor_Nm = 0.01};
+    const hci_diagnosis of_one = {.run = &error, .runs = 1};
+    hold_one_out();
+    error.file = run[1].name;
+    TEST_ASSERT_EQUAL_INT(HCI_HELD_OUT_CONTRADICTED, hci_held_out_judge(&dataset, &runs, &of_one, 1e-4));
+    error.rms_after_Nm = 0.0119; /* as noise is by chance */
+    TEST_ASSERT_EQUAL_INT(HCI_HELD_OUT_DESCRIBED, hci_held_out_judge(&dataset, &runs, &of_one, 1e-4));
+    error.rms_after_Nm = 0.0133;
+    error.rms_before_Nm = 0.03;
+    TEST_ASSERT_EQUAL_INT(HCI_HELD_OUT_DESCRIBED, hci_held_out_judge(&dataset, &runs, &of_one, 1e-4));
+    error.rms_before_Nm = 0.0143;
+    run[1].torque_source = HCI_TORQUE_INERTIA;
+    TEST_ASSERT_EQUAL_INT(HCI_HELD_OUT_DESCRIBED, hci_held_out_judge(&dataset, &runs, &of_one, 1e-4));
+    search_end();
+}
+
+/* Below what noise and resolution allow a rise is seen too, where it is no chance: then it is not all. */
+static void test_a_rise_near_the_noise_is_not_explained(void)
+{
+    hci_run_errors error = {.role = HCI_ROLE_HOLDOUT, .noise_floor_Nm = 0.01, .rms_before_Nm = 0.0105};
+    hci_diagnosis of_one = {.run = &error, .runs = 1, .holdout_before_Nm = 0.0105, .holdout_noise_Nm = 0.01};
+    hold_one_out();
+    error.file = run[1].name;
+    error.rms_after_Nm = of_one.holdout_after_Nm = 0.0125;
+    TEST_ASSERT_EQUAL_INT(HCI_HELD_OUT_PARTLY, hci_held_out_judge(&dataset, &runs, &of_one, 1e-5));
+    error.rms_after_Nm = of_one.holdout_after_Nm = 0.0106;
+    TEST_ASSERT_EQUAL_INT(HCI_HELD_OUT_DESCRIBED, hci_held_out_judge(&dataset, &runs, &of_one, 1e-5));
+    search_end();
+}
+
+/* What is left of all runs, or of one of them, well above the noise. */
+static void test_much_that_is_left(void)
+{
+    hci_run_errors error = {.rms_after_Nm = 0.03, .noise_floor_Nm = 0.01};
+    hci_diagnosis d = {
+        .run = &error, .runs = 1, .rms_after_Nm = 0.015, .noise_Nm = 0.01, .holdout_after_Nm = NAN};
+    TEST_ASSERT_FALSE(hci_held_out_leaves_much(&d, 1e-4));
+    d.rms_after_Nm = 0.025;
+    TEST_ASSERT_TRUE(hci_held_out_leaves_much(&d, 1e-4));
+    TEST_ASSERT_FALSE(hci_held_out_leaves_much(&d, 1e-2));
+    d.rms_after_Nm = 0.015;
+    error.rms_after_Nm = 0.05;
+    TEST_ASSERT_TRUE(hci_held_out_leaves_much(&d, 1e-4));
+}
+
 /* Mean and ripple of 450 samples that are off by three tenths of their noise are χ² of 40 more each; where
  * one of them alone rises, the other speaks for the effects. */
 static void test_a_rise_of_both_is_seen(void)
@@ -275,6 +325,9 @@ int main(void)
     RUN_TEST(test_small_effects_that_predict_stay);
     RUN_TEST(test_means_of_runs_are_judged);
     RUN_TEST(test_a_rise_is_seen);
+    RUN_TEST(test_a_small_error_that_hardly_falls_is_seen);
+    RUN_TEST(test_a_rise_near_the_noise_is_not_explained);
+    RUN_TEST(test_much_that_is_left);
     RUN_TEST(test_a_rise_of_both_is_seen);
     RUN_TEST(test_ripple_of_fitted_runs_is_judged);
     RUN_TEST(test_faint_effects_leave_as_a_pair);

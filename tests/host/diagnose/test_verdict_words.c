@@ -88,6 +88,72 @@ static void test_what_was_not_looked_for(void)
     TEST_ASSERT_TRUE(says("these were not looked for"));
 }
 
+/* What is decisive and was not taken is said, in the order of its evidence; nothing else is. */
+static void test_what_is_decisive_and_not_taken(void)
+{
+    d.verdict = HCI_DIAGNOSIS_EXPLAINED;
+    d.finding[0] = (hci_finding){.effect = "friction", .verdict = HCI_FINDING_ADDED, .delta_bic = 4e5};
+    d.finding[1] = (hci_finding){.effect = "unknown", .verdict = HCI_FINDING_REJECTED, .delta_bic = 3e4};
+    d.finding[2] =
+        (hci_finding){.effect = "mechanical_order", .verdict = HCI_FINDING_REJECTED, .delta_bic = 13602.0};
+    d.finding[3] = (hci_finding){.effect = "cogging", .verdict = HCI_FINDING_REJECTED, .delta_bic = 20.0};
+    d.findings = 4;
+    TEST_ASSERT_TRUE(says("Decisive by ΔBIC and not taken: mechanical_order (1.36e+04); what each"));
+    d.finding[2].delta_bic = 30.0;
+    TEST_ASSERT_FALSE(says("Decisive"));
+}
+
+/* Where the means of the runs are most of an error, no sign or unit is suspected. */
+static void test_zeros_that_differ_are_no_units(void)
+{
+    hci_run_errors run[2] = {{.rms_before_Nm = 0.1, .error_mean_before_Nm = 0.02},
+                             {.rms_before_Nm = 0.1, .error_mean_before_Nm = -0.02}};
+    d.run = run;
+    d.runs = 2;
+    d.disbelieved = "friction";
+    d.disbelieved_share = 1.0;
+    TEST_ASSERT_TRUE(says("signs, units, angle and motor"));
+    run[0].error_mean_before_Nm = -0.09;
+    run[1].error_mean_before_Nm = 0.09;
+    TEST_ASSERT_FALSE(says("signs, units, angle and motor"));
+    TEST_ASSERT_TRUE(says("zero of the torque sensor or the friction is another one from run to run"));
+}
+
+static void test_a_limit_with_nothing_left(void)
+{
+    d.verdict = HCI_DIAGNOSIS_EXPLAINED;
+    d.search = HCI_WORK_LIMITED;
+    d.noise_Nm = 0.01;
+    d.rms_after_Nm = 0.0105;
+    TEST_ASSERT_TRUE(says("limit of its work: nothing but noise is left"));
+    d.rms_after_Nm = 0.02;
+    TEST_ASSERT_FALSE(says("nothing but noise is left"));
+}
+
+static void test_noise_as_large_as_the_torque(void)
+{
+    d.noise_Nm = d.rms_after_Nm = 3.2;
+    d.drowned_Nm = 5.0;
+    TEST_ASSERT_TRUE(says("Whether something is missing is not known"));
+    TEST_ASSERT_TRUE(says("0.64 of the torque that matters (5 N·m)"));
+    TEST_ASSERT_FALSE(says("No known effect"));
+}
+
+/* The recording that disagrees comes before all else. */
+static void test_the_recording_that_disagrees(void)
+{
+    d.verdict = HCI_DIAGNOSIS_COMPLETE;
+    d.odd = (hci_odd_run){.file = "runs/a.csv", .rms_Nm = 5.99, .others_Nm = 0.0205};
+    TEST_ASSERT_TRUE(
+        says("Only runs/a.csv disagrees with the others: its error is 5.99 N·m rms, theirs 0.0205"));
+    TEST_ASSERT_EQUAL_PTR(text, strstr(text, "Only runs/a.csv"));
+    TEST_ASSERT_TRUE(says("Of the others: Nothing is missing"));
+    strcpy(d.odd.slip, "phases b and c are swapped in its file");
+    d.odd.mended = true;
+    d.odd.mended_Nm = 0.02;
+    TEST_ASSERT_TRUE(says("it is as if phases b and c are swapped in its file: with that mended"));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -97,5 +163,10 @@ int main(void)
     RUN_TEST(test_what_runs_without_a_current_show);
     RUN_TEST(test_zeros_of_sensors);
     RUN_TEST(test_what_was_not_looked_for);
+    RUN_TEST(test_what_is_decisive_and_not_taken);
+    RUN_TEST(test_zeros_that_differ_are_no_units);
+    RUN_TEST(test_a_limit_with_nothing_left);
+    RUN_TEST(test_noise_as_large_as_the_torque);
+    RUN_TEST(test_the_recording_that_disagrees);
     return UNITY_END();
 }

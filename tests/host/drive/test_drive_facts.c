@@ -82,18 +82,24 @@ static double complex reading(double g, double delay_samples, double frequency_H
     return sampled / (1.0 + sampled);
 }
 
+/* What a column is times of, or more by: frequency, every gain, every second gain, phase. */
+typedef struct {
+    double frequency, gain, second, turn_rad;
+} slip;
+
 /* loop.csv of a loop with k_p = g L/T. of: `samples` or `current`. */
-static void write_response(double g, double delay_samples, const char *of, double gain_factor)
+static void write_response(double g, double delay_samples, const char *of, slip s)
 {
     static const double FREQUENCY[] = {50, 100, 200, 400, 1200, 3200};
     char text[1024] = "frequency_Hz,gain_d,phase_d_rad,gain_q,phase_q_rad\n";
     for (int k = 0; k < 6; ++k) {
         const double complex x = strcmp(of, "samples") == 0 ? reading(g, delay_samples, FREQUENCY[k])
                                                             : answer(g, delay_samples, FREQUENCY[k]);
-        const double gain = cabs(x) * (k % 2 ? gain_factor : 1.0), phase = carg(x);
+        const double gain = cabs(x) * s.gain * (k % 2 ? s.second : 1.0),
+                     phase = remainder(carg(x) + s.turn_rad, TWO_PI);
         const size_t end = strlen(text);
-        snprintf(text + end, sizeof text - end, "%g,%.9g,%.9g,%.9g,%.9g\n", FREQUENCY[k], gain, phase, gain,
-                 phase);
+        snprintf(text + end, sizeof text - end, "%.9g,%.9g,%.9g,%.9g,%.9g\n", FREQUENCY[k] * s.frequency,
+                 gain, phase, gain, phase);
     }
     files_write(files_path("loop.csv"), text);
 }
@@ -112,24 +118,42 @@ static hci_drive_facts facts_of_response(const char *of)
 
 static void test_a_response_is_that_of_the_gains_or_why_not(void)
 {
+#define NONE                                                                                                 \
+    {                                                                                                        \
+        1.0, 1.0, 1.0, 0.0                                                                                   \
+    }
+#define PI 3.14159265358979323846
     static const struct {
         double g, delay;
         const char *of, *declared;
-        double gain;
+        slip of_columns;
         hci_response_reading reading;
         double value;
     } CASE[] = {
-        {0.2, 1.0, "samples", "samples", 1.0, HCI_RESPONSE_AS_DECLARED, NAN},
-        {0.2, 1.0, "current", "current", 1.0, HCI_RESPONSE_AS_DECLARED, NAN},
-        {0.22, 1.0, "samples", "samples", 1.0, HCI_RESPONSE_AS_DECLARED, NAN},
-        {0.2, 1.0, "current", "samples", 1.0, HCI_RESPONSE_OTHER_CURRENT, NAN},
-        {0.2, 1.0, "samples", "current", 1.0, HCI_RESPONSE_OTHER_CURRENT, NAN},
-        {0.1, 1.0, "samples", "samples", 1.0, HCI_RESPONSE_GAINS, 0.5},
-        {0.2, 0.0, "samples", "samples", 1.0, HCI_RESPONSE_DELAY, 0.0},
-        {0.2, 1.0, "samples", "samples", 4.0, HCI_RESPONSE_UNKNOWN, NAN},
+        {0.2, 1.0, "samples", "samples", NONE, HCI_RESPONSE_AS_DECLARED, NAN},
+        {0.2, 1.0, "current", "current", NONE, HCI_RESPONSE_AS_DECLARED, NAN},
+        {0.22, 1.0, "samples", "samples", NONE, HCI_RESPONSE_AS_DECLARED, NAN},
+        {0.2, 1.0, "current", "samples", NONE, HCI_RESPONSE_OTHER_CURRENT, NAN},
+        {0.2, 1.0, "samples", "current", NONE, HCI_RESPONSE_OTHER_CURRENT, NAN},
+        {0.1, 1.0, "samples", "samples", NONE, HCI_RESPONSE_GAINS, 0.5},
+        {0.2, 0.0, "samples", "samples", NONE, HCI_RESPONSE_DELAY, 0.0},
+        {0.2, 1.0, "samples", "samples", {2.0 * PI, 1.0, 1.0, 0.0}, HCI_RESPONSE_FREQUENCY, 0.5 / PI},
+        {0.2, 1.0, "current", "current", {0.5 / PI, 1.0, 1.0, 0.0}, HCI_RESPONSE_FREQUENCY, 2.0 * PI},
+        {0.2,
+         1.0,
+         "samples",
+         "samples",
+         {1.0, 0.70710678118654752, 1.0, 0.0},
+         HCI_RESPONSE_SCALE,
+         1.4142135623730951},
+        {0.2, 1.0, "samples", "samples", {1.0, 0.01, 1.0, 0.0}, HCI_RESPONSE_SCALE, 100.0},
+        {0.2, 1.0, "samples", "samples", {1.0, 1.0, 1.0, PI}, HCI_RESPONSE_HALF_TURN, NAN},
+        {0.2, 1.0, "samples", "samples", {1.0, 1.0, 4.0, 0.0}, HCI_RESPONSE_UNKNOWN, NAN},
     };
+#undef NONE
+#undef PI
     for (size_t k = 0; k < sizeof CASE / sizeof *CASE; ++k) {
-        write_response(CASE[k].g, CASE[k].delay, CASE[k].of, CASE[k].gain);
+        write_response(CASE[k].g, CASE[k].delay, CASE[k].of, CASE[k].of_columns);
         const hci_drive_facts f = facts_of_response(CASE[k].declared);
         TEST_ASSERT_EQUAL_STRING(hci_response_reading_name(CASE[k].reading),
                                  hci_response_reading_name(f.reading));

@@ -69,6 +69,24 @@ static void test_values_are_read_in_their_units(void)
     hci_drive_release(&d);
 }
 
+/* Once released it is as one of which nothing is given, and may be released again. */
+static void test_a_drive_that_is_released_is_empty(void)
+{
+    hci_drive_data d;
+    hci_note note;
+    files_write(files_path("loop.csv"), "frequency_Hz,gain_d,phase_d_rad,gain_q,phase_q_rad\n"
+                                        "10,1,0,1,0\n20,1,0,1,0\n30,1,0,1,0\n40,1,0,1,0\n");
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, read_rows("current_kp,12,ohm\nresponse,loop.csv,\n", &d, &note),
+                                  note.text);
+    for (int time = 0; time < 2; ++time) {
+        hci_drive_release(&d);
+        TEST_ASSERT_NULL(d.response);
+        TEST_ASSERT_EQUAL_UINT64(0, d.response_count);
+        TEST_ASSERT_TRUE(isnan(d.kp_ohm));
+        TEST_ASSERT_EQUAL_STRING("", d.path);
+    }
+}
+
 static void test_wrong_rows_are_named(void)
 {
     refuse("current_kp,12,ohm\ncurrent_kp,13,ohm\n", "drive.csv:3: column");
@@ -261,6 +279,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_values_are_read_in_their_units);
+    RUN_TEST(test_a_drive_that_is_released_is_empty);
     RUN_TEST(test_wrong_rows_are_named);
     RUN_TEST(test_a_measured_response_is_read);
     RUN_TEST(test_gains_by_a_bandwidth);

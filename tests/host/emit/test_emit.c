@@ -550,6 +550,22 @@ static void test_other_names_are_taken(void)
     TEST_ASSERT_EQUAL(2 * sizeof good / sizeof *good, files_count(files_root));
 }
 
+/* Of a small motor 0.1 N·m may be all; 0 or less is none. */
+static void test_any_reference_torque_above_zero_is_taken(void)
+{
+    const currents c = injected();
+    hci_emit_request r = request_for(&c);
+    r.per_Nm = c.wave;
+    r.per_Nm_count = c.count;
+    r.reference_torque_Nm = -0.1;
+    refuse(r, HCI_ERROR_ARGUMENT, "reference torque -0.1");
+    for (double torque = 0.1; torque > 1e-7; torque *= 0.1) {
+        hci_note note = {{0}};
+        r.reference_torque_Nm = torque;
+        TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_emit(files_root, &r, NULL, &note), note.text);
+    }
+}
+
 static void test_requests_that_cannot_be_met_are_refused(void)
 {
     static const char *const bad_line[] = {"fine", "ends */ here"};
@@ -773,6 +789,7 @@ int main(void)
     RUN_TEST(test_header_says_what_a_loop_has_to_follow);
     RUN_TEST(test_names_that_are_no_identifiers_are_refused);
     RUN_TEST(test_other_names_are_taken);
+    RUN_TEST(test_any_reference_torque_above_zero_is_taken);
     RUN_TEST(test_requests_that_cannot_be_met_are_refused);
     RUN_TEST(test_currents_that_cannot_be_emitted_are_refused);
     RUN_TEST(test_folder_that_cannot_be_written_is_an_output_error);

@@ -111,6 +111,27 @@ static void test_a_failing_allocation_is_memory_that_is_short(void)
     TEST_ASSERT_TRUE(refused > 20);
 }
 
+/* The first call takes out what is not done; a later one adds to what the earlier ones have stored. */
+static void test_later_calls_add_to_the_first(void)
+{
+    char text[TEXT], *row[MOTORS] = {rows[0], NULL};
+    double seconds[MOTORS] = {1.5, 2.5};
+    bool is_stored[MOTORS] = {false, false};
+    hci_fleet_stored stored = {seconds, is_stored, false, true};
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_fleet_store(&results, row, &stored, &note), note.text);
+    TEST_ASSERT_TRUE(stored.is_begun && is_stored[0] && !is_stored[1]);
+    row[0] = NULL, row[1] = rows[1];
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_fleet_store(&results, row, &stored, &note), note.text);
+    cells(text);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(text, "motorone"), text);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(text, "motortwo"), text);
+    stored.is_begun = is_stored[1] = false; /* another start */
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_fleet_store(&results, row, &stored, &note), note.text);
+    cells(text);
+    TEST_ASSERT_NULL_MESSAGE(strstr(text, "motorone"), text);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(text, "motortwo"), text);
+}
+
 int main(void)
 {
     sqlite3_config(SQLITE_CONFIG_GETMALLOC, &usual);
@@ -120,5 +141,6 @@ int main(void)
     sqlite3_config(SQLITE_CONFIG_LOOKASIDE, 0, 0);
     UNITY_BEGIN();
     RUN_TEST(test_a_failing_allocation_is_memory_that_is_short);
+    RUN_TEST(test_later_calls_add_to_the_first);
     return UNITY_END();
 }

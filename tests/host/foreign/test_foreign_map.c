@@ -1,6 +1,8 @@
 /* Maps of other makers' drives: written, recognised and read back to the last bit; terms, phases and angles
  * by their formulas; and an allocator that fails at each place. */
 #include <math.h>
+#include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,6 +10,7 @@
 #include "hci/host/emit/emit_foreign.h"
 #include "host/base/memory.h"
 #include "host/foreign/as_recording.h"
+#include "host/foreign/text.h"
 #include "support/files.h"
 #include "unity.h"
 
@@ -66,19 +69,24 @@ static void fill(hci_foreign_map *map, hci_foreign_name name, unsigned seed)
     map->type->fit(map);
 }
 
-/* The file that is read back, as text. */
-static char *text_of(const hci_foreign_map *map)
+/* One of the files, as text; the first is read back. */
+static char *file_of(const hci_foreign_map *map, size_t which)
 {
     static const char *const LINES[] = {"a line", NULL};
     const hci_foreign_files files = {.name = "map", .lines = LINES};
     hci_output *out;
     TEST_ASSERT_EQUAL(HCI_OK, hci_output_open(files_path("out"), &out, &note));
     TEST_ASSERT_EQUAL(HCI_OK, hci_output_file(out, "map", &note));
-    map->type->write[0](map, &files, out);
+    map->type->write[which](map, &files, out);
     TEST_ASSERT_EQUAL(HCI_OK, hci_output_commit(out, &note));
     const char *kept = files_read(files_path("out/map"));
     char *text = malloc(strlen(kept) + 1);
     return strcpy(text, kept);
+}
+
+static char *text_of(const hci_foreign_map *map)
+{
+    return file_of(map, 0);
 }
 
 static void same_map(void)
@@ -119,6 +127,110 @@ static void test_read_back_is_what_was_written(void)
             hci_foreign_map_release(&written);
             hci_foreign_map_release(&back);
         }
+}
+
+/* A wave is a whole word; any other one leaves the sine. */
+static void test_the_wave_of_a_head(void)
+{
+    for (int wave = 0; wave <= HCI_FOREIGN_COSINE_LAG; ++wave)
+        for (int whole = 0; whole < 2; ++whole) {
+            char text[120];
+            snprintf(text, sizeof text, "# wave %s%s\n# a b c d e f g h i j k l m n\n",
+                     hci_foreign_wave_word((hci_foreign_wave)wave), whole ? "" : "s");
+            hci_foreign_map_init(&back, &hci_foreign_beckhoff);
+            TEST_ASSERT_EQUAL(HCI_OK, hci_foreign_read_head("map", text, &back, &note));
+            TEST_ASSERT_EQUAL_MESSAGE(whole ? wave : HCI_FOREIGN_SINE, back.wave, text);
+        }
+}
+
+/* The value of a subindex of the drive's list in place of what stands there. */
+static hci_status read_beckhoff(const char *start, const char *value)
+{
+    fill(&written, HCI_FOREIGN_BECKHOFF, 1);
+    char *text = text_of(&written), changed[8192];
+    const char *cell = strstr(text, start) + strlen(start), *rest = cell + strcspn(cell, ",");
+    snprintf(changed, sizeof changed, "%.*s%s%s", (int)(cell - text), text, value, rest);
+    const hci_status status = hci_foreign_read(written.type, "map", changed, &back, &note);
+    free(text);
+    hci_foreign_map_release(&written);
+    hci_foreign_map_release(&back);
+    return status;
+}
+
+static void test_ranges_of_beckhoff(void)
+{
+    static const struct {
+        const char *start, *good, *bad[2];
+    } CASE[] = {{"CB,0x07,UINT32,", "200", {"201", "1.5"}},
+                {"CB,0x08,REAL32,", "360", {"360.5", "-1"}},
+                {"CB,0x23,REAL32,", "0", {"361", "-0.5"}},
+                {"CB,0x24,REAL32,", "1000", {"-0.001", "nan"}}};
+    for (size_t k = 0; k < sizeof CASE / sizeof *CASE; ++k) {
+        TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_beckhoff(CASE[k].start, CASE[k].good), note.text);
+        for (size_t j = 0; j < 2; ++j) {
+            TEST_ASSERT_EQUAL_MESSAGE(HCI_ERROR_INPUT, read_beckhoff(CASE[k].start, CASE[k].bad[j]),
+                                      CASE[k].bad[j]);
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(note.text, "0x32CB"), note.text);
+        }
+    }
+}
+
+/* A map that adds nothing adds 0, in either direction, and not -0. */
+static void test_nothing_is_zero_without_a_sign(void)
+{
+    for (int name = 0; name < HCI_FOREIGN_TARGET_COUNT; ++name)
+        for (int direction = -1; direction <= 1; direction += 2) {
+            char *csv;
+            fill(&written, (hci_foreign_name)name, 1);
+            written.direction = direction;
+            written.terms = 0;
+            for (size_t k = 0; k < written.points * written.columns; ++k)
+                written.value[k] = 0.0;
+            TEST_ASSERT_EQUAL(HCI_OK, hci_foreign_as_csv(&written, &csv, &note));
+            TEST_ASSERT_NULL_MESSAGE(strstr(csv, ",-0"), written.type->word);
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(csv, ",0\n"), written.type->word);
+            hci_memory_free(csv);
+            hci_foreign_map_release(&written);
+        }
+}
+
+static unsigned byte_at(const char *text)
+{
+    unsigned byte;
+    TEST_ASSERT_EQUAL(1, sscanf(text, "%2X", &byte));
+    return byte;
+}
+
+/* The records of an Intel HEX: whole by their sums, and in them amplitude, phase and order, low bytes first.
+ */
+static void test_the_flash_of_openffboard(void)
+{
+    unsigned char flash[256] = {0};
+    fill(&written, HCI_FOREIGN_OPENFFBOARD, 1);
+    char *text = file_of(&written, 1);
+    for (const char *line = strchr(text, ':'); line != NULL; line = strchr(line + 1, ':')) {
+        const unsigned count = byte_at(line + 1), address = byte_at(line + 3) << 8 | byte_at(line + 5);
+        unsigned sum = 0;
+        for (unsigned k = 0; k < count + 5; ++k)
+            sum += byte_at(line + 1 + 2 * k);
+        TEST_ASSERT_EQUAL(0, sum & 255);
+        for (unsigned k = 0; byte_at(line + 7) == 0 && k < count; ++k)
+            flash[address + k] = (unsigned char)byte_at(line + 9 + 2 * k);
+    }
+    for (size_t k = 0; k < written.terms; ++k) {
+        const unsigned char *b = flash + 12 * k;
+        for (int part = 0; part < 2; ++part) {
+            const uint32_t bits = b[4 * part] | (uint32_t)b[4 * part + 1] << 8 |
+                                  (uint32_t)b[4 * part + 2] << 16 | (uint32_t)b[4 * part + 3] << 24;
+            const float wanted = part ? (float)written.term[k].phase_rad
+                                      : (float)(written.term[k].amplitude * written.counts_per_A);
+            float found;
+            memcpy(&found, &bits, sizeof found);
+            TEST_ASSERT_TRUE(found == wanted);
+        }
+        TEST_ASSERT_EQUAL((unsigned)written.term[k].order, b[8] | b[9] << 8);
+    }
+    free(text);
 }
 
 static void test_other_files_are_not_maps(void)
@@ -305,6 +417,10 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_read_back_is_what_was_written);
+    RUN_TEST(test_the_wave_of_a_head);
+    RUN_TEST(test_ranges_of_beckhoff);
+    RUN_TEST(test_nothing_is_zero_without_a_sign);
+    RUN_TEST(test_the_flash_of_openffboard);
     RUN_TEST(test_other_files_are_not_maps);
     RUN_TEST(test_cut_off_anywhere);
     RUN_TEST(test_terms_are_the_strongest_orders);

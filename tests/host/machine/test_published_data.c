@@ -394,7 +394,7 @@ static void test_published_sets_have_the_known_ranks(void)
         const size_t count = read_components(k + 1, components);
         const size_t reached = orders_above_zero(emf, emf_count, components, count, orders);
         TEST_ASSERT_TRUE(reached <= 128);
-        hci_system_dense(emf, emf_count, components, count, orders, reached, u);
+        hci_system_dense(&(hci_mutual_torque){emf, emf_count, orders, reached}, components, count, u);
         TEST_ASSERT_EQUAL_UINT64(TABLE_6[k].rank, rank_of(u, 2 * reached, 2 * count));
     }
 }

@@ -317,7 +317,7 @@ static void test_currents_outside(void)
 static void test_grows_with_the_current(void)
 {
     TEST_ASSERT_EQUAL_INT(HCI_OK, read_texts("effect,parameter,value,unit,departures\n"
-                                             "saturation,d0q3_sine_6,0,Nm,0.001 -0.002 0.0005\n"
+                                             "saturation,d0q3_sine_12,0,Nm,0.001 -0.002 0.0005\n"
                                              "saturation,reference_current,1,A,0 0 0\n",
                                              RUNS));
     hci_ripple_path path = path_of(0.0, 1.0);

@@ -53,7 +53,8 @@ static double square_by_rows(size_t out, const double *precision)
     enum { M = ALL - ROWS + COLUMNS };
     double a[M * COLUMNS] = {0.0}, b[M] = {0.0}, solution[COLUMNS], work[COLUMNS], sum = 0.0;
     double factor[4 * (M + COLUMNS)];
-    size_t column[COLUMNS], rank, row = 0;
+    size_t column[COLUMNS], row = 0;
+    hci_orthogonal q = {.m = M, .n = COLUMNS, .a = a, .column = column, .work = factor};
     for (size_t k = 0; k < ALL; ++k) {
         if (k / ROWS == out) continue;
         for (size_t c = 0; c < COLUMNS; ++c)
@@ -63,8 +64,8 @@ static double square_by_rows(size_t out, const double *precision)
     for (size_t c = 0; c < COLUMNS; ++c)
         a[row + c + c * M] = sqrt(precision[c]);
     TEST_ASSERT_TRUE(hci_orthogonal_workspace(M, COLUMNS) <= sizeof factor / sizeof *factor);
-    TEST_ASSERT_EQUAL(HCI_OK, hci_orthogonal_factor(M, COLUMNS, a, 0.0, column, factor, &rank, NULL));
-    hci_orthogonal_solve(M, COLUMNS, a, column, factor, rank, b, solution, work);
+    TEST_ASSERT_EQUAL(HCI_OK, hci_orthogonal_factor(&q, 0.0, NULL));
+    hci_orthogonal_solve(&q, b, solution, work);
     for (size_t k = out * ROWS; k < (out + 1) * ROWS; ++k) {
         double left = y[k];
         for (size_t c = 0; c < COLUMNS; ++c)

@@ -101,6 +101,20 @@ static void test_a_contradiction_is_noticed(void)
     hci_null_space_release(&s);
 }
 
+/* ½x = 1 and x = 5, in either order: the longer one is met, and the other is off by 1.5 of at most 5. */
+static void test_a_contradiction_is_noticed_in_any_row(void)
+{
+    const double factor[2][2] = {{0.5, 1.0}, {1.0, 0.5}}, side[2][2] = {{1.0, 5.0}, {5.0, 1.0}};
+    for (int k = 0; k < 2; ++k) {
+        hci_null_space s = {0};
+        TEST_ASSERT_EQUAL_INT(HCI_OK, hci_null_space_make(2, 1, factor[k], side[k], &s));
+        TEST_ASSERT_EQUAL_UINT64(0, s.free);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-14, 5.0, s.point[0]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-14, 0.3, s.error);
+        hci_null_space_release(&s);
+    }
+}
+
 static void test_no_equation_no_condition(void)
 {
     const double zero[ROWS] = {0.0};
@@ -123,6 +137,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_equations_are_met);
     RUN_TEST(test_a_contradiction_is_noticed);
+    RUN_TEST(test_a_contradiction_is_noticed_in_any_row);
     RUN_TEST(test_no_equation_no_condition);
     return UNITY_END();
 }

@@ -485,7 +485,10 @@ static void test_memory(void)
     hci_memory_fail_after(0);
     TEST_ASSERT_FALSE(hci_condensed_add(&condensed, &group[0], unit));
     TEST_ASSERT_EQUAL_UINT(3, condensed.count);
+    memset(&ridge, 1, sizeof ridge);
     TEST_ASSERT_FALSE(hci_ridge_make(&condensed, &expected, &ridge));
+    TEST_ASSERT_EQUAL_UINT(0, ridge.n);
+    TEST_ASSERT_TRUE(!ridge.factor && !ridge.scale && !ridge.mean);
     hci_memory_fail_after(1);
     TEST_ASSERT_TRUE(hci_ridge_make(&condensed, &expected, &ridge));
     TEST_ASSERT_FALSE(hci_ridge_leave_out(&ridge, &condensed, NULL, left));

@@ -65,6 +65,14 @@ static void test_loads(void)
     TEST_ASSERT_FALSE(are_friction());
 }
 
+/* Without any speed there is no law of it. */
+static void test_a_shaft_that_stands(void)
+{
+    for (int k = 0; k < 4; ++k)
+        drag[count++] = (hci_drag){k % 2 ? -0.02 : 0.02, k % 2 ? -1.0 : 1.0, 1.0, 0.0, 0.0};
+    TEST_ASSERT_FALSE(are_friction());
+}
+
 static void test_law(void)
 {
     add_friction(3.0, 1e-4);
@@ -88,6 +96,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_friction);
     RUN_TEST(test_loads);
+    RUN_TEST(test_a_shaft_that_stands);
     RUN_TEST(test_law);
     return UNITY_END();
 }

@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "hci/host/recording/run.h"
+#include "hci/math/harmonic.h"
 #include "support/files.h"
 #include "support/texts.h"
 #include "unity.h"
@@ -68,9 +69,43 @@ static void test_what_stays(void)
     TEST_ASSERT_FALSE(is_slope());
 }
 
+/* At 0.4 rad/s on the whole, in jerks of `jerk_rad` with rests between; 0: evenly, with a pause in the
+ * middle. */
+static void read_jerks(double jerk_rad)
+{
+    const char *path = files_path("run.csv");
+    FILE *file = fopen(path, "w");
+    hci_note note = {{0}};
+    TEST_ASSERT_NOT_NULL(file);
+    fprintf(file, "time_s,theta_m_rad,iq_A\n");
+    for (int k = 0; k < 4000; ++k) {
+        const double way = 0.004 * (k < 2000 ? k : k < 2400 ? 2000 : k - 400), rest = fmod(way, jerk_rad);
+        const double theta = jerk_rad > 0.0 ? way - rest + fmax(0.0, 5.0 * rest - 4.0 * jerk_rad) : way;
+        fprintf(file, "%.9g,%.9g,%.9g\n", 0.01 * k, theta, cos(0.1 * k));
+    }
+    fclose(file);
+    hci_run_release(&run);
+    TEST_ASSERT_EQUAL_MESSAGE(
+        HCI_OK, hci_run_read(path, &(hci_run_options){.pole_pairs = 3, .holding = true}, &run, &note),
+        note.text);
+}
+
+/* Of an electrical turn and of a twelfth of it: longer than what its own neighbourhood tells, and shorter. */
+static void test_a_shaft_that_sticks_and_slips(void)
+{
+    read_jerks(2.0 * HCI_PI / 3.0);
+    TEST_ASSERT_TRUE(run.is_unsteady);
+    text_has("comes to rest", run.remark.text);
+    read_jerks(2.0 * HCI_PI / 36.0);
+    TEST_ASSERT_TRUE(run.is_unsteady);
+    read_jerks(0.0);
+    TEST_ASSERT_FALSE(run.is_unsteady);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_a_shaft_that_sticks_and_slips);
     RUN_TEST(test_noise);
     RUN_TEST(test_what_stays);
     return UNITY_END();

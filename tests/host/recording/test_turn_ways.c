@@ -184,6 +184,26 @@ static void test_a_shaft_that_sticks(void)
     }
 }
 
+/* Two turns on and two back, up to 64 times; what turns back more often is no matter of ways. */
+static void test_many_ways(void)
+{
+    enum { MOST = 64, LONG = 2 * OF_TURN };
+    rec_release(&run);
+    run = rec_make((MOST + 1) * LONG);
+    for (int parts = MOST; parts <= MOST + 1; ++parts) {
+        const double step = 2.0 * REF_PI / OF_TURN;
+        double theta = 0.0;
+        run.count = (size_t)parts * LONG;
+        for (size_t k = 0; k < run.count; ++k) {
+            theta += k / LONG % 2 ? -step : step;
+            run.theta_m_rad[k] = theta;
+            run.time_s[k] = step * (double)k / SPEED;
+            rec_phases(0.0, 1.0 + 1e-4 * ref_normal(&seed), POLE_PAIRS * theta, run.i_A + 3 * k);
+        }
+        TEST_ASSERT_EQUAL(parts == MOST, find());
+    }
+}
+
 static void test_what_has_no_ways(void)
 {
     double *const time_s = run.time_s;
@@ -204,6 +224,7 @@ int main(void)
     RUN_TEST(test_one_way);
     RUN_TEST(test_parts_of_a_way);
     RUN_TEST(test_a_shaft_that_sticks);
+    RUN_TEST(test_many_ways);
     RUN_TEST(test_what_has_no_ways);
     return UNITY_END();
 }

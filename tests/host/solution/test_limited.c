@@ -267,6 +267,26 @@ static void test_limits_that_nothing_keeps(void)
                               solution.limit[0].value / solution.limit[0].limit);
 }
 
+/* The same with the heat of one phase, and of all, instead of a peak. */
+static void test_heat_that_nothing_keeps(void)
+{
+    options.speed_rad_per_s = 200.0;
+    options.limit_voltage_V = 10.0;
+    for (int is_copper = 0; is_copper < 2; ++is_copper) {
+        options.limits.copper_W = is_copper ? 0.6 : 0.0; /* 1.5·0.4 Ω·(1 A)² */
+        for (int s = 0; s < 3; ++s)
+            options.limits.rms_A[s] = is_copper ? 0.0 : sqrt(0.5);
+        solve(HCI_NOT_REACHED);
+        const hci_limit *u = limit(HCI_LIMIT_VOLTAGE),
+                        *heat = limit(is_copper ? HCI_LIMIT_COPPER : HCI_LIMIT_RMS);
+        const double share = heat->value / heat->limit;
+        TEST_ASSERT_EQUAL(HCI_COST_LIMITS, solution.limit_cost);
+        TEST_ASSERT_TRUE(solution.exceeded_share > 0.5);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-3, 1.0 + solution.exceeded_share, u->value / u->limit);
+        TEST_ASSERT_DOUBLE_WITHIN(2e-3, 1.0 + solution.exceeded_share, is_copper ? sqrt(share) : share);
+    }
+}
+
 /* ---- what is declared ---- */
 
 static void test_ratings(void)
@@ -557,6 +577,7 @@ int main(void)
     RUN_TEST(test_an_open_phase_shows_a_voltage_that_is_not_limited);
     RUN_TEST(test_field_weakening);
     RUN_TEST(test_limits_that_nothing_keeps);
+    RUN_TEST(test_heat_that_nothing_keeps);
     RUN_TEST(test_ratings);
     RUN_TEST(test_a_declared_dc_link_at_standstill);
     RUN_TEST(test_contradictions);

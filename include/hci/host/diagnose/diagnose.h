@@ -66,6 +66,8 @@ typedef struct {
     double ripple_before_Nm, ripple_after_Nm;         /* rms of what is left beside the mean */
     double after_low_Nm, after_high_Nm;               /* 95 % confidence interval of rms_after_Nm */
     double noise_floor_Nm;                            /* rms that noise alone would leave */
+    double unrepeated_Nm; /* of it, rms that differs from turn to turn and is no noise between the orders;
+                           * NAN: too few turns */
     double
         slip_rad; /* the run's mechanical angle is ahead of that of the others by this; it was turned back */
 } hci_run_errors;
@@ -96,6 +98,19 @@ typedef struct {
     bool turns_sign;                         /* c */
     double amplitude_Nm;                     /* at the largest current and speed of the recordings */
 } hci_unexplained;
+
+/* Bytes of what a slip is, in words. */
+enum { HCI_SLIP_SIZE = 128 };
+
+/* The one recording that disagrees with all others, and was taken out. */
+typedef struct {
+    const char *file;         /* belongs to the runs; NULL: there is none */
+    double rms_Nm, others_Nm; /* of measured less modelled torque: of this run, and of the others */
+    char slip[HCI_SLIP_SIZE]; /* what in that file would make most of it, in words; "": nothing simple */
+    bool mended;              /* and brings it down to its noise … */
+    double mended_Nm;         /* … to this rms error */
+    double angle_rad;         /* mechanical angle by which the run is ahead, where that is it */
+} hci_odd_run;
 
 /* Bytes of a reason. */
 enum { HCI_WHY_SIZE = 256 };
@@ -159,6 +174,7 @@ typedef struct {
     double holdout_before_Nm, holdout_after_Nm, holdout_noise_Nm; /* NAN without such runs */
     double holdout_mean_before_Nm, holdout_mean_after_Nm;         /* rms of the mean errors of these runs */
     double holdout_ripple_before_Nm, holdout_ripple_after_Nm;     /* and of what is left beside the means */
+    hci_odd_run odd;          /* all the rest is of the other recordings */
     const hci_again *again;   /* what the new recordings say of the last diagnosis; NULL: this is the first;
                                * not released with it */
     const char *disbelieved;  /* effect that describes the recordings best, with values that nobody would
@@ -176,12 +192,16 @@ typedef struct {
                          * what   acts under load is not known */
     const char *no_load_denied; /* why what the runs without a current show was left out, in words; NULL: it
                                  * was not */
-    bool wanders;               /* something is left that does not repeat with the turn */
-    const char *slip;   /* what a wrong sign, direction, zero or number of pole pairs shows, and no effect was
-                         * made of, in words; NULL: nothing such */
-    bool not_searched;  /* because of that slip no effect was looked for */
-    bool magnetic_only; /* direct current alone: beside iron nothing else was looked for */
-    bool inertia_as_well;    /* free shafts alone: a wrong inertia looks the same as an ambiguous effect */
+    double drowned_Nm; /* torque of interest, rated or of the currents, that the noise is as large as: nothing
+                        * is said to be complete; 0: it is not */
+    bool wanders;      /* something is left that does not repeat with the turn */
+    const char *slip;  /* what a wrong sign, direction, zero or number of pole pairs shows, and no effect was
+                        * made of, in words; NULL: nothing such */
+    bool not_searched; /* because of that slip no effect was looked for */
+    bool magnetic_only;   /* direct current alone: beside iron nothing else was looked for */
+    bool sensors_as_well; /* current sensors that read each other's current look the same as an ambiguous one
+                           */
+    bool inertia_as_well; /* free shafts alone: a wrong inertia looks the same as an ambiguous effect */
     double open_voltage_off; /* share by which voltages without a current differ from the declared back-EMF;
                               * 0: none were recorded */
     bool against_voltages; /* the torques ask for another torque per ampere, which voltages that were recorded

@@ -118,6 +118,7 @@ typedef struct {
 #undef HCI_DRIVE_FIELD
     hci_decoupling decoupling;      /* what it adds */
     bool decoupling_is_given;       /* in the file */
+    bool gains_are_given;           /* in the file: k_p, or a bandwidth */
     hci_modulation modulation;      /* what voltages it reaches */
     hci_response_of response_of;    /* which current it is of */
     hci_loop_point *response;       /* loop.csv, ascending; NULL with count 0: from the gains */
@@ -131,6 +132,12 @@ hci_status hci_drive_read(const char *path, hci_drive_data *drive, hci_note *not
 
 /* Says what was taken for what the file does not say and drives differ in: the decoupling. */
 void hci_drive_remark(const hci_drive_data *drive, hci_note *remark);
+
+/* Says of L_d and L_q of a drive, as read or fitted, that differ, with a machine that has neither
+ * inductance.csv nor effects with a reluctance torque: the currents of `solve` do not count on theirs.
+ * folder: of the machine. */
+void hci_drive_remark_saliency(const hci_drive_data *drive, const hci_machine_data *machine,
+                               const char *folder, hci_note *remark);
 
 /* Nothing given: every number NAN. */
 void hci_drive_init(hci_drive_data *drive);

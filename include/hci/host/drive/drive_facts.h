@@ -17,6 +17,12 @@ extern "C" {
       "it is of the other current: change `response_of`, `samples` as the drive reads it or `current` as "   \
       "an "                                                                                                  \
       "analyser does")                                                                                       \
+    X(HCI_RESPONSE_FREQUENCY, "frequency",                                                                   \
+      "the frequencies are in another unit, rad/s: multiply the column `frequency_Hz`")                      \
+    X(HCI_RESPONSE_SCALE, "scale",                                                                           \
+      "current and reference are in different units, such as peak and rms: multiply the gains")              \
+    X(HCI_RESPONSE_HALF_TURN, "half_turn",                                                                   \
+      "current and reference have different signs: add half a turn to the phases")                           \
     X(HCI_RESPONSE_GAINS, "gains", "k_p and k_i of the drive are others")                                    \
     X(HCI_RESPONSE_DELAY, "delay", "computing_delay is another")                                             \
     X(HCI_RESPONSE_UNKNOWN, "unknown", "no other gains, delay or units explain it")
@@ -25,7 +31,10 @@ extern "C" {
 typedef enum {
     HCI_RESPONSE_AS_DECLARED,   /* within HCI_RESPONSE_TOLERANCE */
     HCI_RESPONSE_OTHER_CURRENT, /* that which flows for that of the samples, or the other way round */
-    HCI_RESPONSE_GAINS,         /* gains times one factor */
+    HCI_RESPONSE_FREQUENCY,     /* frequencies in rad/s, or turns that were taken for rad */
+    HCI_RESPONSE_SCALE,         /* all gains times one factor */
+    HCI_RESPONSE_HALF_TURN,     /* all phases half a turn on */
+    HCI_RESPONSE_GAINS,         /* gains of the drive times one factor with which it is stable */
     HCI_RESPONSE_DELAY,         /* another computing delay */
     HCI_RESPONSE_UNKNOWN        /* none of these */
 } hci_response_reading;
@@ -39,6 +48,8 @@ typedef struct {
     double inductance_H[2];   /* L_d and L_q, means over a turn */
     double bandwidth_Hz[2];   /* d and q: the answer is 3 dB down, at standstill; INFINITY: nowhere below the
                                  highest frequency */
+    double peak[2];           /* d and q: largest answer to a reference of 1, at standstill */
+    double peak_Hz[2];        /* where */
     double lead_s;            /* how late the current is at low frequency */
     double largest_pole;      /* of the closed loop at standstill, in z */
     double gain_margin;       /* both gains can be so many times as large; at most 100 */
@@ -52,13 +63,20 @@ typedef struct {
     double response_off_Hz;   /* where */
     hci_response_reading reading; /* what explains it */
     double reading_off;           /* what is left with that reading */
-    double reading_value;         /* factor of the gains, or computing delay in s; else NAN */
+    double reading_value;         /* factor of the gains of the drive, of the frequencies or of the measured
+                                   * gains, or computing delay in s; else NAN */
 } hci_drive_facts;
 
 /* The word of a reading in files. */
 const char *hci_response_reading_name(hci_response_reading reading);
-/* What a reading says, for people. */
-const char *hci_response_reading_words(hci_response_reading reading);
+/* Bytes of what is said of a reading. */
+enum { HCI_RESPONSE_TEXT_SIZE = 256 };
+/* What the reading of a response says, with its value and what is left, for people. */
+void hci_response_reading_text(const hci_drive_facts *facts, char text[HCI_RESPONSE_TEXT_SIZE]);
+/* Says that the response of a drive, as read or fitted, is not that of its gains, and why. Nothing where it
+ * is, or where there is none. */
+void hci_drive_remark_response(const hci_drive_data *drive, const hci_machine_data *machine,
+                               hci_note *remark);
 
 /* Looks at the loop. speed_rad_per_s: mechanical, 0 for none. The drive is fitted by it. HCI_ERROR_INPUT as
  * hci_drive_fit and hci_drive_check_speed, so where the loop is not stable; _MEMORY. */

@@ -42,6 +42,12 @@ typedef struct {
     double voltage_rad_per_s;  /* mechanical: above it the voltage does not do for all orders; HUGE_VAL */
     double sampled_rad_per_s;  /* mechanical: above it the sampling does not do for all orders; HUGE_VAL */
     double measured_rad_per_s; /* mechanical: above it orders lie beyond the measured response; HUGE_VAL */
+    double response_error;     /* share of the measured answer that loop.csv is off between its points, by how
+                                * well     they tell one another; NAN: there is none, or it is not known */
+    double response_ripple_percent; /* of the mean torque, peak to peak, that compensation can be left with by
+                                     * that at response_rad_per_s; NAN likewise, and without a torque */
+    double response_rad_per_s; /* mechanical: the speed asked for, or the highest that all orders are whole
+                                * at; 0: none */
     uint32_t crc32;            /* of the waves */
 } hci_emit_loop_result;
 

@@ -49,6 +49,8 @@ typedef struct {
     bool turn_known;  /* the angle is mechanical, or an electrical one that is not wrapped: orders k/p are in
                          it */
     bool is_unsteady; /* a holding test whose shaft sticks and slips: its current tells no cogging torque */
+    bool is_clipped;  /* crests of its current stand at one value: a limit, or a sensor at its end */
+    bool lacks_id;    /* i_q was recorded and i_d not, which is taken as 0 */
     bool slow_beside_others; /* a slow turn by what other recordings of its list tell, not by itself */
     double inertia_share;    /* rms of the inertia x acceleration that was taken out of the current, over the
                               * torque    that the current makes; 0: nothing was */

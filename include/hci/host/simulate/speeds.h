@@ -36,6 +36,7 @@ const char *hci_remedy_name(hci_remedy remedy);
 typedef struct {
     double mean_Nm;                            /* torque */
     double T_ripple_percent, F_ripple_percent; /* as of hci_simulation */
+    double ripple_Nm;                          /* torque, peak to peak */
     double peak_A;                             /* of a phase */
     double line_V;                             /* largest line voltage at the machine */
     double limited_share;                      /* of the samples asked for more voltage than there is */
@@ -44,9 +45,12 @@ typedef struct {
 
 /* All remedies at one speed. */
 typedef struct {
-    double speed_rad_per_s; /* mechanical */
-    double needed_V;        /* dc link voltage that the currents as they are wanted need */
-    size_t orders_short;    /* of the table: not whole, since the voltage or the sampling does not do */
+    double speed_rad_per_s;         /* mechanical */
+    double needed_V;                /* dc link voltage that the currents as they are wanted need */
+    double back_emf_V;              /* the same without any current */
+    double response_ripple_percent; /* of the mean torque, peak to peak, that compensation can be left with by
+                                     * what loop.csv does not tell; NAN without it, and without a torque */
+    size_t orders_short; /* of the table: not whole, since the voltage or the sampling does not do */
     hci_speed_result remedy[HCI_REMEDIES]; /* by hci_remedy */
 } hci_speed_row;
 
@@ -72,10 +76,13 @@ typedef struct {
     double torque_Nm;          /* asked for */
     double model_error;        /* as requested */
     double dc_link_V;          /* of the drive */
+    double reached_V;          /* what dead time leaves of it */
     double lead_s;             /* by which the table is read ahead */
     double voltage_rad_per_s;  /* mechanical: above it the voltage does not do for all orders; HUGE_VAL */
     double sampled_rad_per_s;  /* mechanical: above it the sampling does not do for all orders; HUGE_VAL */
     double measured_rad_per_s; /* mechanical: above it orders lie beyond the measured response; HUGE_VAL */
+    double response_error;     /* share of the measured answer that loop.csv is off between its points, by how
+                                * well     they tell one another; NAN: there is none, or it is not known */
     double harmful_rad_per_s[HCI_REMEDIES]; /* mechanical, signed as the speeds: beyond it, straight between
                                                them, the plain sine has less T_ripple at the same torque;
                                                HUGE_VAL where it has not */

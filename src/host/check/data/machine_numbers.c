@@ -225,7 +225,7 @@ hci_status hci_check_machine_read(const char *folder, check_data *data, hci_note
     if (!status) status = hci_machine_path(data->inductance.path, CHECK_PATH, folder, "inductance.csv", note);
     if (!status && hci_machine_has(data->inductance.path)) status = inductance_read(data, note);
     if (!status && !data->inductance.given)
-        hci_saliency_remark(folder, data->value[CHECK_inductance_d_H], data->value[CHECK_inductance_q_H],
-                            remark);
+        hci_saliency_remark(folder, folder, data->value[CHECK_inductance_d_H],
+                            data->value[CHECK_inductance_q_H], remark);
     return status;
 }

@@ -24,6 +24,7 @@ typedef struct {
     int power;            /* of the currents, there */
     bool unlike;          /* of a rotor that does not look alike both ways round, there */
     bool shortened;       /* of the terms that stand together the last ones are another candidate */
+    size_t grown_from;    /* terms that the law in the model has, of which this one has more; 0: no fewer */
     bool in;              /* in the model */
 } hci_candidate;
 

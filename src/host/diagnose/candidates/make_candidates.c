@@ -20,6 +20,8 @@ enum {
 #define SIMILAR 0.15 /* speeds that differ by less, as a share, are the same */
 #define AROUND  1.2  /* standard deviations above a mean speed: at 0.85 of a ramp from 0 */
 
+#define LEAST_PERIOD 0.02 /* electrical, that a shaft turns by which is not held */
+#define WHOLE_TURN   0.95 /* mechanical: the last sample stands before the first one */
 
 #define LITTLE 0.1 /* current beside the largest, that is next to none */
 
@@ -152,6 +154,14 @@ static bool warms(const hci_candidates_source *s)
     return hottest_C - coldest_C > LEAST_WARMING_K;
 }
 
+/* Whether a run over time turns the shaft by less than once: orders closer than one over that are not told
+ * apart, so only whole electrical ones are looked for. One that hardly moves has no order. */
+static bool is_part_of_turn(const hci_candidates_source *s, size_t run)
+{
+    const double turns = s->samples->statistics[run].turns;
+    return s->runs[run].time_s && turns * s->machine->pole_pairs > LEAST_PERIOD && turns < WHOLE_TURN;
+}
+
 static hci_effect_survey survey_of(const hci_candidates_source *s)
 {
     hci_effect_survey x = {.machine = s->machine,
@@ -165,7 +175,7 @@ static hci_effect_survey survey_of(const hci_candidates_source *s)
         x.moving = x.moving || f->mean_speed_rad_per_s != 0.0;
         ahead = ahead || (s->use[r] && f->mean_speed_rad_per_s > 0.0);
         back = back || (s->use[r] && f->mean_speed_rad_per_s < 0.0);
-        x.has_turn = x.has_turn || s->runs[r].turn_known;
+        x.has_turn = x.has_turn || (s->runs[r].turn_known && !is_part_of_turn(s, r));
         x.creeps = x.creeps || (s->use[r] && f->creeps && s->runs[r].torque_source == HCI_TORQUE_MEASURED);
         if (s->runs[r].time_s && s->runs[r].count > 0)
             x.duration_s = fmax(x.duration_s, s->runs[r].time_s[s->runs[r].count - 1] - s->runs[r].time_s[0]);
@@ -271,9 +281,32 @@ static hci_status rest_add(const hci_candidate *x, const hci_candidate *whole, h
     return rest.count > 0 ? hci_candidates_add(list, &rest, note) : HCI_OK;
 }
 
+/* A law of more terms in place of the one in the model, with the values of that. */
+static void law_grow(const hci_candidate *x, hci_candidate *whole)
+{
+    for (size_t k = 0; k < whole->count; ++k)
+        for (size_t j = 0; j < x->count; ++j)
+            if (x->term[j].parameter == whole->term[k].parameter) whole->term[k].value = x->term[j].value;
+    whole->grown_from = x->count;
+    whole->in = true;
+}
+
+/* A candidate that shares a term with one in the model. */
+static hci_status known_take(const hci_candidate *x, hci_candidates *list, size_t at, hci_note *note)
+{
+    const hci_candidate whole = list->candidate[at];
+    if (!x->shortened && whole.count > x->count) {
+        law_grow(x, &list->candidate[at]);
+        return HCI_OK;
+    }
+    list->candidate[at] = *x;
+    list->candidate[at].grown_from = 0;
+    return x->shortened ? rest_add(x, &whole, list, note) : HCI_OK;
+}
+
 /* What is in the model stays in the list, in its place. No term is there twice: a law of fewer terms, as some
- * of the runs alone tell it, gives way to the one that all runs may tell. Where terms have left it, they are
- * a candidate of their own. */
+ * of the runs alone tell it, gives way to the one that all runs may tell, which is then in. Where terms have
+ * left it, they are a candidate of their own. */
 static hci_status keep_known(const hci_candidates *known, hci_candidates *list, hci_note *note)
 {
     hci_status status = HCI_OK;
@@ -283,13 +316,7 @@ static hci_status keep_known(const hci_candidates *known, hci_candidates *list, 
         if (!x->in) continue;
         while (at < list->count && !shares_a_term(x, &list->candidate[at]))
             ++at;
-        if (at == list->count)
-            status = hci_candidates_add(list, x, note);
-        else if (x->shortened || list->candidate[at].count <= x->count) {
-            const hci_candidate whole = list->candidate[at];
-            list->candidate[at] = *x;
-            status = x->shortened ? rest_add(x, &whole, list, note) : HCI_OK;
-        }
+        status = at < list->count ? known_take(x, list, at, note) : hci_candidates_add(list, x, note);
     }
     return status;
 }

@@ -146,6 +146,24 @@ static hci_status smoothing_settle(hci_dataset *b, hci_note *note)
     return status;
 }
 
+/* In a holding test the noise of the sum of the currents leaves the currents: a gain of all three sensors,
+ * which no torque contradicts there, would make that sum smaller, and so describe noise. The sum itself, as
+ * it was read, stays. */
+static void sums_leave(const hci_runs *runs, hci_dataset *b)
+{
+    for (size_t r = 0; r < runs->count; ++r) {
+        if (runs->run[r].torque_source != HCI_TORQUE_HOLDING || !isfinite(b->regression.sum_deviation_A[r]))
+            continue;
+        for (const hci_segment *s = NULL; (s = hci_segment_next(&b->samples, r, s)) != NULL;)
+            for (size_t j = s->first; j < s->first + s->count; ++j)
+                for (size_t phase = 0; phase < 3; ++phase) {
+                    hci_binned_sample *x = &b->samples.sample[j];
+                    x->reading.i_abc[phase] -= x->sum_A / 3.0;
+                    x->raw.i_abc[phase] -= x->sum_A / 3.0;
+                }
+    }
+}
+
 hci_status hci_dataset_make(const hci_machine_data *machine, const hci_effects *declared,
                             const hci_runs *runs, hci_dataset *b, hci_note *note)
 {
@@ -156,6 +174,7 @@ hci_status hci_dataset_make(const hci_machine_data *machine, const hci_effects *
     if (!status) status = evidence_make(machine, declared, runs, b, note);
     if (!status) status = indices_align(runs, b, note);
     if (!status) status = smoothing_settle(b, note);
+    if (!status) sums_leave(runs, b);
     if (status) hci_dataset_release(b);
     return status;
 }

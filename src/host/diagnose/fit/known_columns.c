@@ -90,7 +90,7 @@ static bool table_start(hci_known_table *t, const hci_regression *e, hci_stand_v
     if (capacity > 0 && e->samples->count < HCI_KNOWN_NUMBERS / capacity) {
         t->use = hci_memory_new(runs + 1, sizeof *t->use);
         t->column = hci_memory_new(capacity, sizeof *t->column);
-        t->value = hci_memory_new(e->samples->count * capacity, sizeof *t->value);
+        t->value = hci_memory_new((e->samples->count + 1) * capacity, sizeof *t->value);
     }
     if (t->use && t->column && t->value) {
         memcpy(t->use, e->use, runs * sizeof *t->use);
@@ -203,7 +203,8 @@ static bool plan_reserve(hci_column_plan *p, const hci_model *model, size_t term
     p->term = hci_memory_new(terms + 1, sizeof *p->term);
     p->predicted = hci_memory_new(2 * model->columns + 1, sizeof *p->predicted);
     p->known = p->predicted ? p->predicted + model->columns : NULL;
-    return p->effect && p->term && p->predicted;
+    p->constant_by_value = hci_memory_new(model->columns + 1, sizeof *p->constant_by_value);
+    return p->effect && p->term && p->predicted && p->constant_by_value;
 }
 
 static bool list_make(hci_column_plan *p, const hci_model *model, size_t terms)
@@ -218,16 +219,6 @@ static bool list_make(hci_column_plan *p, const hci_model *model, size_t terms)
     hci_memory_free(left);
     hci_memory_free(place);
     return made;
-}
-
-/* Of a shaft that hardly accelerates each derivative depends on the torque of the current; and a table is of
- * smoothed readings. */
-static bool may_keep(const hci_regression *e)
-{
-    bool may = e->columns && !e->raw;
-    for (size_t r = 0; r < e->samples->run_count; ++r)
-        may = may && !(e->use[r] && e->runs[r].hardly_accelerates);
-    return may;
 }
 
 /* What is not known is known next time: a table without places for that begins anew. */
@@ -245,7 +236,8 @@ bool hci_column_plan_make(const hci_regression *e, const hci_model *model, bool 
 {
     const size_t terms = hci_effects_terms(&model->list);
     memset(p, 0, sizeof *p);
-    p->table = keeps && may_keep(e) ? table_find(e, model) : NULL;
+    p->table =
+        keeps && e->columns && !e->raw ? table_find(e, model) : NULL; /* a table is of smoothed readings */
     bool made = plan_reserve(p, model, terms);
     if (made) sources_find(p, e, model);
     made = made && list_make(p, model, terms);
@@ -258,6 +250,7 @@ void hci_column_plan_release(hci_column_plan *p)
     hci_memory_free(p->effect);
     hci_memory_free(p->term);
     hci_memory_free(p->predicted);
+    hci_memory_free(p->constant_by_value);
     memset(p, 0, sizeof *p);
 }
 
@@ -278,12 +271,26 @@ static void row_fill(const hci_column_plan *p, double scale, const double *by_va
         x[p->known[k].column] = scale * kept[p->known[k].slot];
 }
 
-void hci_column_plan_fill(const hci_column_plan *p, const hci_segment *s, double scale,
-                          const double *by_value, double *x)
+void hci_column_plan_constants(const hci_column_plan *p, const hci_regression *e,
+                               const hci_predicted_reading *predicted)
 {
-    const size_t terms = hci_effects_terms(&p->list), columns = p->predicted_count + p->known_count;
     const hci_known_table *t = p->table;
-    for (size_t j = 0; j < s->count; ++j)
-        row_fill(p, scale, by_value + j * terms, t ? t->value + (s->first + j) * t->capacity : NULL,
-                 x + j * columns);
+    if (predicted->current_Nm)
+        row_fill(p, 1.0, predicted->constant_by_value, t ? t->value + e->samples->count * t->capacity : NULL,
+                 p->constant_by_value);
+}
+
+void hci_column_plan_fill(const hci_column_plan *p, const hci_regression *e, const hci_segment *s,
+                          const hci_predicted_reading *predicted, double *x)
+{
+    const size_t terms = predicted->terms, columns = p->predicted_count + p->known_count;
+    const hci_known_table *t = p->table;
+    const double scale = hci_run_reads_current(&e->runs[s->run]) ? predicted->holding_scale : 1.0;
+    const double constant = predicted->constant_Nm_per_A, share = constant != 0.0 ? 1.0 / constant : 0.0;
+    for (size_t j = 0; j < s->count; ++j) {
+        row_fill(p, scale, predicted->by_value + j * terms,
+                 t ? t->value + (s->first + j) * t->capacity : NULL, x + j * columns);
+        for (size_t c = 0; predicted->current_Nm && c < columns; ++c)
+            x[j * columns + c] -= predicted->current_Nm[j] * share * p->constant_by_value[c];
+    }
 }

@@ -8,6 +8,7 @@
 #define HCI_SRC_HOST_DIAGNOSE_FIT_KNOWN_COLUMNS_H
 
 #include "host/diagnose/fit/model.h"
+#include "host/diagnose/fit/predicted_reading.h"
 #include "host/diagnose/fit/regression.h"
 
 enum { HCI_KNOWN_TABLES = 2, HCI_KNOWN_NUMBERS = 1 << 24 /* of a table, at most */ };
@@ -32,8 +33,8 @@ typedef struct {
     bool *use; /* of each run */
     hci_known_column *column;
     size_t count, capacity;
-    double *value; /* [samples][capacity], of holding tests in units of the modelled torque per ampere; of
-                    * samples that are not in use nothing */
+    double *value; /* [samples + 1][capacity], of holding tests in units of the modelled torque per ampere; of
+                    * samples that are not in use nothing; the last row of the torque per ampere */
     size_t asked;  /* when it was asked for last */
 } hci_known_table;
 
@@ -56,8 +57,9 @@ typedef struct {
     hci_effect_term *term;
     hci_column_source *predicted, *known; /* both [columns]; of the second the place means nothing */
     size_t predicted_count, known_count;
-    hci_known_table *table; /* NULL: nothing is known and nothing will be */
-    size_t filled;          /* columns of the table once all segments in use have been filled */
+    hci_known_table *table;    /* NULL: nothing is known and nothing will be */
+    size_t filled;             /* columns of the table once all segments in use have been filled */
+    double *constant_by_value; /* [columns], derivatives of the torque per ampere */
 } hci_column_plan;
 
 /* keeps: whether to look for what is known and to keep what is predicted; a regression may have no place for
@@ -66,11 +68,15 @@ bool hci_column_plan_make(const hci_regression *regression, const hci_model *mod
                           hci_column_plan *plan);
 void hci_column_plan_release(hci_column_plan *plan);
 
+/* The derivatives of the torque per ampere, before all segments, where a shaft hardly accelerates.
+ * predicted: of the list. */
+void hci_column_plan_constants(const hci_column_plan *plan, const hci_regression *regression,
+                               const hci_predicted_reading *predicted);
+
 /* Writes the derivatives of a segment, x[sample·columns + column of the model], and those that were predicted
- * into the table. by_value: [samples][terms of the list]; scale: of the segment, declared over modelled
- * torque per ampere in a holding test, else 1. */
-void hci_column_plan_fill(const hci_column_plan *plan, const hci_segment *segment, double scale,
-                          const double *by_value, double *x);
+ * into the table. predicted: of the list, with what a scale of the current's torque takes away apart. */
+void hci_column_plan_fill(const hci_column_plan *plan, const hci_regression *regression,
+                          const hci_segment *segment, const hci_predicted_reading *predicted, double *x);
 
 /* What has been predicted is known from now on: of all segments in use. Without it nothing is. */
 void hci_column_plan_keep(const hci_column_plan *plan);

@@ -9,6 +9,7 @@
 #include "host/diagnose/fit/known_equations.h"
 #include "host/diagnose/fit/predicted_reading.h"
 
+#define SCALES   1e-4  /* torque by a value at the reference current that is not rounding */
 #define ROUNDING 1e-12 /* square of a column beside the largest of its effect that is rounding */
 
 enum { PHASES = 3 };
@@ -21,10 +22,12 @@ typedef struct {
     const hci_model *model;
     hci_column_plan plan; /* what of the model is predicted, and what is known */
     hci_normal_equations *normal;
-    hci_scatter *scatter;         /* or NULL */
-    double *x, *y;                /* rows of a segment: [samples][columns] and [samples] */
-    double *constant;             /* [samples], of the same rows: what a constant torque leaves in them */
-    bool all;                     /* candidates that are not in, too */
+    hci_scatter *scatter; /* or NULL */
+    double *x, *y;        /* rows of a segment: [samples][columns] and [samples] */
+    double *constant;     /* [samples], of the same rows: what a constant torque leaves in them */
+    bool all;             /* candidates that are not in, too */
+    bool scales;          /* a column changes the unit of torques that stand for currents */
+    double reference_current_A;
     size_t *summed, summed_count; /* columns that show in sums of the currents, ascending */
     hci_normal_equations sums;    /* of these, from rows of such sums */
 } filling;
@@ -96,13 +99,6 @@ static void constants_free(const filling *f, const hci_segment *s, const hci_noi
         take_constant_out(f->constant, square, f->x + c, s->count, f->model->columns);
 }
 
-/* What the derivatives of a segment have been multiplied with. */
-static double scale_of(const filling *f, const hci_segment *s, const hci_predicted_reading *predicted)
-{
-    const bool holds = f->regression->runs[s->run].torque_source == HCI_TORQUE_HOLDING;
-    return holds ? predicted->holding_scale : 1.0;
-}
-
 /* Of a sample that tells nothing. */
 static void row_clear(const filling *f, size_t k)
 {
@@ -116,7 +112,7 @@ static void torque_rows(const filling *f, const hci_segment *s, const hci_predic
     const hci_model *m = f->model;
     const hci_binned_sample *sample = f->regression->samples->sample + s->first;
     const hci_noise *noise = hci_regression_noise(f->regression, s);
-    hci_column_plan_fill(&f->plan, s, scale_of(f, s, predicted), predicted->by_value, f->x);
+    hci_column_plan_fill(&f->plan, f->regression, s, predicted, f->x);
     for (size_t k = 0; k < s->count; ++k) {
         f->y[k] = sample[k].torque_Nm - predicted->torque_Nm[k];
         if (!(sample[k].count > 0.0)) row_clear(f, k);
@@ -300,12 +296,27 @@ static void rows_release(filling *f)
     hci_normal_equations_release(&f->sums);
 }
 
+/* Whether any column changes the torque per ampere of small currents, of a torque of about 1 at the reference
+ * current. */
+static bool any_scales(const filling *f)
+{
+    double most = 0.0;
+    for (size_t c = 0; c < f->model->columns; ++c)
+        most = fmax(most, fabs(f->plan.constant_by_value[c]));
+    return most * f->reference_current_A > SCALES;
+}
+
 /* Sums over all samples. False when memory is out. */
 static bool rows_add_all(filling *f)
 {
     const hci_regression *e = f->regression;
     hci_predicted_reading predicted;
     const bool made = rows_reserve(f) && hci_predicted_reading_make(e, &f->plan.list, true, &predicted);
+    if (made) {
+        predicted.apart = true;
+        hci_column_plan_constants(&f->plan, e, &predicted);
+        f->scales = predicted.current_Nm && any_scales(f);
+    }
     for (const hci_segment *s = NULL; made && (s = hci_regression_next(e, s)) != NULL;)
         segment_add(f, s, &predicted);
     if (made) {
@@ -327,14 +338,22 @@ static bool rows_fill(filling *f)
     return made;
 }
 
-/* Whether every run in use shows a column. */
+/* Whether a run shows a column, and all that its value does: where the unit of a torque that stands for a
+ * current is a column's, the rest of that column depends on all that acts with the current. */
+static bool run_tells(const filling *f, size_t run, const hci_model_column *x)
+{
+    const unsigned traits = x->candidate->type->parameter[x->candidate->term[x->term].parameter].traits;
+    const bool mixes = f->scales && f->regression->runs[run].hardly_accelerates;
+    return can_show(&f->regression->runs[run], &f->regression->samples->statistics[run], x->candidate,
+                    x->term) &&
+           !(mixes && (traits & HCI_PARAMETER_WITH_CURRENT));
+}
+
+/* Whether every run in use tells a column. */
 static bool is_shown(const filling *f, size_t column)
 {
-    const hci_model_column *x = &f->model->column[column];
     for (const hci_segment *s = NULL; (s = hci_regression_next(f->regression, s)) != NULL;)
-        if (!can_show(&f->regression->runs[s->run], &f->regression->samples->statistics[s->run], x->candidate,
-                      x->term))
-            return false;
+        if (!run_tells(f, s->run, &f->model->column[column])) return false;
     return true;
 }
 
@@ -363,7 +382,12 @@ static hci_status normal_make(const hci_regression *e, const hci_candidates *can
                               hci_normal_equations *normal, hci_scatter *scatter, hci_note *note)
 {
     hci_model model;
-    filling f = {.regression = e, .model = &model, .normal = normal, .scatter = scatter, .all = all};
+    filling f = {.regression = e,
+                 .model = &model,
+                 .normal = normal,
+                 .scatter = scatter,
+                 .all = all,
+                 .reference_current_A = candidates->reference_current_A};
     memset(normal, 0, sizeof *normal);
     if (scatter) memset(scatter, 0, sizeof *scatter);
     const hci_status status = hci_model_make(e->declared, candidates, all, &model, note);

@@ -120,8 +120,7 @@ size_t hci_settling_samples(const hci_binned_sample *sample, const hci_segment *
     return lead < most ? lead : most;
 }
 
-/* Whether the current is the reading: nothing in such a run tells the size of a torque per ampere. */
-static bool reads_current(const hci_run *run)
+bool hci_run_reads_current(const hci_run *run)
 {
     return run->torque_source == HCI_TORQUE_HOLDING || run->hardly_accelerates;
 }
@@ -131,7 +130,7 @@ static double holding_scale(const hci_regression *e, const hci_effects *effects)
 {
     bool holds = false;
     for (size_t r = 0; r < e->samples->run_count; ++r)
-        holds = holds || (e->use[r] && reads_current(&e->runs[r]));
+        holds = holds || (e->use[r] && hci_run_reads_current(&e->runs[r]));
     if (!holds) return 1.0;
     const double declared = fabs(e->declared_constant);
     const double modelled = fabs(hci_torque_constant(e->machine, effects));
@@ -139,17 +138,12 @@ static double holding_scale(const hci_regression *e, const hci_effects *effects)
     return modelled * LARGEST_SCALE > declared ? declared / modelled : LARGEST_SCALE;
 }
 
-/* Zeros where no shaft hardly accelerates, or none makes a torque. */
-static void constant_differentiate(const hci_regression *e, const hci_effects *effects,
-                                   hci_predicted_reading *o)
+static bool any_hardly_accelerates(const hci_regression *e)
 {
     bool any = false;
     for (size_t r = 0; r < e->samples->run_count; ++r)
         any = any || (e->use[r] && e->runs[r].hardly_accelerates);
-    if (!any) return;
-    const double constant = hci_torque_constant_by_value(e->machine, effects, o->constant_by_value, o->sum);
-    for (size_t c = 0; c < o->terms; ++c)
-        o->constant_by_value[c] *= constant != 0.0 ? 1.0 / constant : 0.0;
+    return any;
 }
 
 static bool present_make(const hci_effects *effects, hci_predicted_reading *o)
@@ -169,7 +163,7 @@ bool hci_predicted_reading_make(const hci_regression *e, const hci_effects *effe
     const size_t most = longest_run_through(e, has_dynamics(effects));
     memset(o, 0, sizeof *o);
     o->terms = hci_effects_terms(effects);
-    o->torque_Nm = hci_memory_new(4 * most + 5 * o->terms + 2, sizeof *o->torque_Nm);
+    o->torque_Nm = hci_memory_new(5 * most + 5 * o->terms + 2, sizeof *o->torque_Nm);
     if (derivatives) o->by_value = hci_memory_new(most * (o->terms + 1), sizeof *o->by_value);
     if (!o->torque_Nm || (derivatives && !o->by_value) || !present_make(effects, o)) {
         hci_predicted_reading_release(o);
@@ -181,7 +175,9 @@ bool hci_predicted_reading_make(const hci_regression *e, const hci_effects *effe
     o->sum = o->work + 2 * most;
     o->row = o->sum + 2 * o->terms;
     o->constant_by_value = o->row + 2 * (o->terms + 1);
-    if (derivatives) constant_differentiate(e, effects, o);
+    if (!derivatives || !any_hardly_accelerates(e)) return true;
+    o->current_Nm = o->constant_by_value + o->terms;
+    o->constant_Nm_per_A = hci_torque_constant_by_value(e->machine, effects, o->constant_by_value, o->sum);
     return true;
 }
 
@@ -226,14 +222,6 @@ static double of_current(const hci_regression *e, const hci_effects *effects, co
     return torque_Nm - hci_effects_predict(e->machine, effects, &without, NULL);
 }
 
-/* The scale of what the current makes is no value of these rows: friction and cogging torque are found times
- * it. */
-static void hold_scale(const hci_predicted_reading *o, double of_current_Nm, double *by_value)
-{
-    for (size_t c = 0; c < o->terms; ++c)
-        by_value[c] -= of_current_Nm * o->constant_by_value[c];
-}
-
 /* Where a torque is asked for. parts: what is known of it; NULL: nothing. */
 typedef struct {
     const hci_run *run;
@@ -247,15 +235,17 @@ static double at_once(const hci_regression *e, const hci_effects *effects, const
     return hci_effects_predict_again(e->machine, effects, at->reading, at->parts, by_value);
 }
 
-/* The torque that is read at one sample, without the dynamics of the sensor. */
+/* The torque that is read at one sample, without the dynamics of the sensor. current_Nm: out, what of that a
+ * current makes, if it is wanted. */
 static double torque_at(const hci_regression *e, const hci_effects *effects, const place *at,
-                        hci_predicted_reading *o, double *by_value)
+                        hci_predicted_reading *o, double *by_value, double *current_Nm)
 {
     const double torque_Nm = at->run->only_mean ? mean_over_turn(e, effects, at->reading, o, by_value)
                                                 : at_once(e, effects, at, by_value);
-    const double scale = reads_current(at->run) ? o->holding_scale : 1.0;
-    if (at->run->hardly_accelerates && by_value)
-        hold_scale(o, of_current(e, &o->present, at->reading, torque_Nm), by_value);
+    const double scale = hci_run_reads_current(at->run) ? o->holding_scale : 1.0;
+    *current_Nm = at->run->hardly_accelerates && by_value
+                      ? scale * of_current(e, &o->present, at->reading, torque_Nm)
+                      : 0.0;
     for (size_t c = 0; scale != 1.0 && by_value && c < o->terms; ++c)
         by_value[c] *= scale;
     return scale * torque_Nm;
@@ -270,7 +260,9 @@ static void fill_static(const hci_regression *e, const hci_effects *effects, con
         double *by_value = o->by_value ? o->by_value + k * o->terms : NULL;
         const place at = {&e->runs[s->run], e->raw ? &sample[k].raw : &sample[k].reading,
                           e->parts ? &e->parts[s->first + k] : NULL};
-        o->torque_Nm[k] = torque_at(e, effects, &at, o, by_value);
+        double current_Nm;
+        o->torque_Nm[k] = torque_at(e, effects, &at, o, by_value, &current_Nm);
+        if (o->current_Nm) o->current_Nm[k] = current_Nm;
         o->time_s[k] = sample[k].time_s;
     }
 }
@@ -331,6 +323,7 @@ static void means_widen(const hci_regression *e, const hci_segment *s, hci_predi
         spread = sample[k].spread_rad2 > 0.0;
     if (!spread || s->count < 3) return;
     bins_widen(sample, s->count, turn_rad, o->torque_Nm, 1, o->row);
+    if (o->current_Nm) bins_widen(sample, s->count, turn_rad, o->current_Nm, 1, o->row);
     if (o->by_value && o->terms > 0) bins_widen(sample, s->count, turn_rad, o->by_value, o->terms, o->row);
 }
 
@@ -340,6 +333,7 @@ static void means_widen(const hci_regression *e, const hci_segment *s, hci_predi
 static void turn_repeat(hci_predicted_reading *o, size_t n, size_t turn, double period_s)
 {
     memcpy(o->torque_Nm + turn * n, o->torque_Nm, n * sizeof *o->torque_Nm);
+    if (o->current_Nm) memcpy(o->current_Nm + turn * n, o->current_Nm, n * sizeof *o->current_Nm);
     if (o->by_value)
         memcpy(o->by_value + turn * n * o->terms, o->by_value, n * o->terms * sizeof *o->by_value);
     for (size_t k = 0; k < n; ++k)
@@ -350,6 +344,7 @@ static void turn_repeat(hci_predicted_reading *o, size_t n, size_t turn, double 
 static void turn_keep(hci_predicted_reading *o, size_t n, size_t first)
 {
     memmove(o->torque_Nm, o->torque_Nm + first, n * sizeof *o->torque_Nm);
+    if (o->current_Nm) memmove(o->current_Nm, o->current_Nm + first, n * sizeof *o->current_Nm);
     if (o->by_value) memmove(o->by_value, o->by_value + first * o->terms, n * o->terms * sizeof *o->by_value);
 }
 
@@ -429,11 +424,14 @@ static void step_fill(const hci_regression *e, const hci_effects *effects, const
     const size_t count = hci_between_count(from, to, hci_finest_order(e->machine, effects));
     double *mean = o->by_value ? o->by_value + k * o->terms : NULL, *row = mean ? o->row : NULL;
     o->torque_Nm[k] = 0.0;
+    if (o->current_Nm) o->current_Nm[k] = 0.0;
     if (mean) memset(mean, 0, o->terms * sizeof *mean);
     for (size_t j = 0; j < count; ++j) {
         const hci_sample x = hci_between_at(from, to, e->machine->pole_pairs, j, count);
         const place there = {&e->runs[s->run], &x, NULL};
-        o->torque_Nm[k] += torque_at(e, effects, &there, o, row) / (double)count;
+        double current_Nm;
+        o->torque_Nm[k] += torque_at(e, effects, &there, o, row, &current_Nm) / (double)count;
+        if (o->current_Nm) o->current_Nm[k] += current_Nm / (double)count;
         for (size_t c = 0; row && c < o->terms; ++c)
             mean[c] += row[c] / (double)count;
     }
@@ -455,6 +453,7 @@ static void windows_take(size_t count, size_t window, bool of_steps, hci_predict
     void (*take)(const double *, size_t, size_t, double *, size_t, double *) =
         of_steps ? hci_slope_average_of_steps : hci_slope_average;
     take(o->time_s, count, window, o->torque_Nm, 1, o->work);
+    if (o->current_Nm) take(o->time_s, count, window, o->current_Nm, 1, o->work);
     for (size_t c = 0; o->by_value && c < o->terms; ++c)
         take(o->time_s, count, window, o->by_value + c, o->terms, o->work);
 }
@@ -466,6 +465,16 @@ static void average(const hci_regression *e, const hci_segment *s, size_t count,
     const hci_run *run = &e->runs[s->run];
     windows_take(count, window_in(run, s, run->torque_window), of_steps, o);
     windows_take(count, window_in(run, s, run->speed_window), false, o);
+}
+
+/* The scale of what the current makes is no value of these rows: friction and cogging torque are found times
+ * it. */
+static void scale_hold(const hci_predicted_reading *o, size_t count)
+{
+    const double share = o->constant_Nm_per_A != 0.0 ? 1.0 / o->constant_Nm_per_A : 0.0;
+    for (size_t k = 0; k < count; ++k)
+        for (size_t c = 0; c < o->terms; ++c)
+            o->by_value[k * o->terms + c] -= o->current_Nm[k] * share * o->constant_by_value[c];
 }
 
 void hci_predicted_reading_fill(const hci_regression *e, const hci_effects *effects, const hci_segment *s,
@@ -494,6 +503,7 @@ void hci_predicted_reading_fill(const hci_regression *e, const hci_effects *effe
     if (is_slope(e, s) && !o->instant) average(e, s, turns * s->count, of_steps, o);
     if (lead > 0) turn_keep(o, s->count, lead);
     if (turns > 1) turn_keep(o, s->count, turns / 2 * s->count);
+    if (o->current_Nm && !o->apart) scale_hold(o, s->count);
 }
 
 /* Of a load that is not known only what varies is left. */

@@ -38,17 +38,26 @@ typedef struct {
     hci_effect *present_effect;
     hci_effect_term *present_term;
     bool instant; /* wanted as it is at each sample, not as a slope shows it */
+    bool apart;   /* wanted: derivatives at a scale of the current's torque that stays as it is */
     size_t terms;
-    double holding_scale;      /* of torques in a holding test: declared over modelled torque per ampere */
-    double *constant_by_value; /* [terms], derivatives of the logarithm of the modelled torque per ampere */
+    double holding_scale; /* of torques that stand for a current: declared over modelled torque per ampere */
+    double *current_Nm;   /* [samples], what a current makes of torque_Nm where its scale is no value of the
+                           * rows: of a shaft that hardly accelerates; NULL: no such run is in use */
+    double constant_Nm_per_A;  /* the modelled torque per ampere, there */
+    double *constant_by_value; /* [terms], its derivatives; 0: no such run */
 } hci_predicted_reading;
+
+/* Whether a run's torque stands for a current: nothing in it tells the size of a torque per ampere. */
+bool hci_run_reads_current(const hci_run *run);
 
 /* False when memory is out, and then there is nothing to release. */
 bool hci_predicted_reading_make(const hci_regression *regression, const hci_effects *effects,
                                 bool derivatives, hci_predicted_reading *reading_out);
 void hci_predicted_reading_release(hci_predicted_reading *reading_out);
 
-/* Fills torque_Nm and by_value for the samples of a segment. O(samples·terms). */
+/* Fills torque_Nm and by_value for the samples of a segment. Of a shaft that hardly accelerates what the
+ * current makes is torque_Nm in units of constant_Nm_per_A: by_value is less current_Nm[k] ·
+ * constant_by_value[c] / constant_Nm_per_A there, unless that is wanted apart. O(samples·terms). */
 void hci_predicted_reading_fill(const hci_regression *regression, const hci_effects *effects,
                                 const hci_segment *segment, hci_predicted_reading *reading_out);
 

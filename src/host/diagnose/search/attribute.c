@@ -13,11 +13,12 @@
 #include "host/diagnose/search/coenergy.h"
 #include "host/diagnose/search/companions.h"
 #include "host/diagnose/search/no_load.h"
+#include "host/diagnose/search/phases.h"
 #include "host/diagnose/search/rivals.h"
 #include "host/diagnose/search/rounds.h"
 #include "host/diagnose/search/scaled.h"
 #include "host/diagnose/search/settle.h"
-#include "host/diagnose/search/slip.h"
+#include "host/diagnose/candidates/slip.h"
 #include "host/diagnose/search/stability.h"
 
 #define RATIO       1e-3 /* change of the torque per ampere, as a share, that an inertia may be wrong by */
@@ -250,6 +251,7 @@ static hci_status verdicts(hci_search *s, hci_attribution *a, hci_note *note)
     if (!status && !hci_search_is_over(s)) status = verdicts_of_others(s, a, note);
     if (!status && !hci_search_is_over(s)) status = verdicts_of_same(s, a, note);
     if (!status && !hci_search_is_over(s)) status = verdicts_of_equal(s, a, note);
+    if (!status && !is_beside_unknown(a)) status = hci_search_phases_mark(a, note);
     if (!status && !a->unknown) status = verdicts_of_ratio(s, a, note);
     return status;
 }

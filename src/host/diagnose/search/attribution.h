@@ -16,7 +16,8 @@ typedef struct {
     double explained_Nm;             /* rms of what the model loses without it */
     size_t stays,
         left_out; /* with how many of the runs that were left out in turn it is found all the same */
-    hci_fitted_model alternative; /* of a rival: the model with it instead */
+    hci_fitted_model alternative; /* of a rival: the model with it instead; of one that is in: the same
+                                   * recordings by another machine, that has less of it */
 } hci_verdict;
 
 enum { HCI_MOST_TYPES = 32 };
@@ -36,6 +37,7 @@ typedef struct {
     double disbelieved_share;           /* of the declared torque per ampere, that it leaves */
     bool magnetic_only;                 /* direct current alone: beside iron nothing else was looked for */
     bool inertia_as_well;               /* a wrong inertia looks the same as an effect that is in */
+    bool sensors_as_well; /* current sensors that read each other's current make what sensors and phases do */
     bool means_open;  /* what was found of the means of the runs says nothing of those left out, and is out */
     bool means_alone; /* and nothing but those means is left */
     bool wanders;     /* what is left does not repeat with the turn */

@@ -85,12 +85,30 @@ static void bench_release(dataset *b)
     hci_memory_free(b->spare);
 }
 
+/* By how much the score falls since the laws of a type that are in have more terms than the model has. Laws
+ * begin with the same terms. */
+static double growth_gain(const hci_selection *choice, const hci_effect_type *type)
+{
+    double gain = 0.0;
+    for (size_t k = 0; k < choice->list->count; ++k) {
+        hci_candidate more = choice->list->candidate[k];
+        const size_t from = more.grown_from;
+        if (more.type != type || from == 0) continue;
+        more.count -= from;
+        more.price = 0.0; /* paid by those that are in */
+        gain += hci_sweep_reduction(choice->base, choice->column[k] + from, more.count) -
+                hci_candidate_cost(&more, choice->rows);
+    }
+    return gain;
+}
+
 static void model_add(hci_candidate_models *t, dataset *b, size_t type_a, size_t type_b)
 {
     hci_candidate_model *x = &t->model[t->count];
     *x = (hci_candidate_model){type_a, type_b, 0.0, t->flags + t->count * (t->list.count + 1), 0};
     x->gain = hci_group_select(&b->choice, hci_candidate_type(type_a), hci_candidate_type(type_b), x->in,
                                &b->sweep, b->spare);
+    if (type_a == type_b) x->gain += growth_gain(&b->choice, hci_candidate_type(type_a));
     for (size_t k = 0; k < t->list.count; ++k)
         x->terms += x->in[k] ? t->list.candidate[k].count : 0;
     ++t->count;

@@ -8,6 +8,7 @@
 #define SWING_ERROR  0.005
 #define JITTER_ERROR 0.25 /* of a delay that is another one at each sample */
 #define JITTER       1.5  /* largest over least noise of a run that tells of it */
+#define CRAWL_ERROR  0.01 /* of a cogging torque that the current answers within a few samples */
 #define ANY_ERROR    3e-4 /* a noise of another size in each run, an inertia, the angle between two samples */
 #define KNEE                                                                                                 \
     0.1 /* of what a power describes of tanh x or x/√(1 + x²) up to x = 1, that a linear part beside it   \
@@ -54,6 +55,16 @@ static bool jitters(const hci_regression *e)
     return most > JITTER * least;
 }
 
+/* Whether a cogging torque holds a shaft that hardly accelerates: what its current does between two samples,
+ * and the noise of it, are in each torque that is read there. */
+static bool crawls(const hci_regression *e, const hci_effect_type *type)
+{
+    bool any = false;
+    for (size_t r = 0; r < e->samples->run_count; ++r)
+        any = any || (e->use[r] && e->runs[r].hardly_accelerates);
+    return any && type->any_phase && type->propose_coenergy;
+}
+
 /* What a model of the type gets wrong, as a share of what it explains: a series in the currents is not what
  * iron does to the last digit, nor what a sensor answers between samples that are far apart in a period, nor
  * a delay the filter that makes it. */
@@ -61,6 +72,7 @@ double hci_companion_error(const hci_regression *e, const hci_candidates *model,
 {
     if (type->late && jitters(e)) return JITTER_ERROR;
     if (type->beyond_quadratic) return SERIES_ERROR;
+    if (crawls(e, type)) return CRAWL_ERROR;
     return swings(model, type) ? SWING_ERROR : 0.0;
 }
 
@@ -221,8 +233,15 @@ double hci_companion_of_sensor(const hci_attribution *a, const hci_verdict *v)
     return 0.0;
 }
 
+/* Of the magnetic circuit, or a drag that grows with the current. */
+static bool is_by_iron(const hci_effect_type *type)
+{
+    const bool drags = type->drag_Nm && (type->parameter[0].traits & HCI_PARAMETER_WITH_CURRENT);
+    return type->propose_coenergy || drags;
+}
+
 double hci_companion_least(const hci_regression *e, const hci_attribution *a, const hci_verdict *v)
 {
     if (is_within_slope(e, &a->model.candidates, v->type)) return INFINITY;
-    return fmax(least_of_any(a, v), v->type->propose_coenergy ? least_of_iron(e, a, v) : 0.0);
+    return fmax(least_of_any(a, v), is_by_iron(v->type) ? least_of_iron(e, a, v) : 0.0);
 }

@@ -85,14 +85,28 @@ static bool is_loose(size_t type)
     return hci_candidate_type(type)->is_series || hci_candidate_type(type) == &hci_empirical_type;
 }
 
+/* Whether one effect of no more values promises as much as a pair, but for what a pair has to explain more.
+ */
+static bool one_does(const hci_candidate_models *t, const hci_candidate_model *pair)
+{
+    for (size_t k = 0; k < t->count; ++k) {
+        const hci_candidate_model *x = &t->model[k];
+        if (!is_pair(x) && !is_loose(x->a) && x->terms <= pair->terms &&
+            pair->gain < (1.0 + PAIR_MARGIN) * x->gain)
+            return true;
+    }
+    return false;
+}
+
 /* In place of a series two effects may have as many values as that, and promise a little less: a promise is
- * of orders that were chosen one by one. */
-static bool is_frugal(const hci_candidate_model *x, const hci_candidate_model *single)
+ * of orders that were chosen one by one. Not where one effect does as well. */
+static bool is_frugal(const hci_candidate_models *t, const hci_candidate_model *x,
+                      const hci_candidate_model *single)
 {
     const bool series = hci_candidate_type(single->a)->is_series;
     const double least = series ? (1.0 - SERIES_MARGIN) * single->gain : single->gain + PAIR;
     return is_pair(x) && !is_loose(x->a) && !is_loose(x->b) && x->terms <= single->terms &&
-           (series || x->terms <= FEW) && x->gain > least;
+           (series || x->terms <= FEW) && x->gain > least && !(series && one_does(t, x));
 }
 
 /* The best pair of few values that explains more than a single effect with no fewer. */
@@ -102,7 +116,7 @@ static const hci_candidate_model *frugal_pair(const hci_candidate_models *t,
     const hci_candidate_model *best = NULL;
     for (size_t k = 0; k < t->count; ++k) {
         const hci_candidate_model *x = &t->model[k];
-        if (is_frugal(x, single) && (!best || x->gain > best->gain)) best = x;
+        if (is_frugal(t, x, single) && (!best || x->gain > best->gain)) best = x;
     }
     return best;
 }
@@ -189,10 +203,11 @@ static hci_status contender_enter(comparison *c, hci_fitted_model *candidate, do
 
 /* What a model must be better by than its score: two effects at once, unless of few values, and a series by a
  * share of what one explains too, and one that is called another unless it is decisively better. */
-static double handicap_of(const hci_candidate_model *x, const hci_candidate_model *best)
+static double handicap_of(const hci_candidate_models *t, const hci_candidate_model *x,
+                          const hci_candidate_model *best)
 {
     const hci_effect_type *a = hci_candidate_type(x->a), *b = hci_candidate_type(x->b);
-    const double margin = is_frugal(x, best) ? 0.0 : PAIR_MARGIN * best->gain;
+    const double margin = is_frugal(t, x, best) ? 0.0 : PAIR_MARGIN * best->gain;
     const double pair = is_pair(x) ? HCI_DECISIVE + margin : 0.0;
     const double loose = is_loose(x->a) || is_loose(x->b) ? fmin(LOOSE_MOST, LOOSE_MARGIN * best->gain) : 0.0;
     return pair + loose + (a->seen_as || b->seen_as ? HCI_DECISIVE : 0.0);
@@ -222,7 +237,7 @@ static hci_status models_enter(comparison *c, hci_candidate_models *t, hci_note 
     const hci_candidate_model first = count > 0 ? *picked[0] : (hci_candidate_model){0};
     hci_status status = HCI_OK;
     for (size_t k = 0; k < count && !status && !hci_search_is_over(c->search); ++k)
-        status = model_enter(c, t, picked[k], handicap_of(picked[k], &first), note);
+        status = model_enter(c, t, picked[k], handicap_of(t, picked[k], &first), note);
     return status;
 }
 

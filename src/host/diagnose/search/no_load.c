@@ -8,7 +8,7 @@
 #include "host/diagnose/search/rivals.h"
 #include "host/diagnose/search/rounds.h"
 #include "host/diagnose/search/settle.h"
-#include "host/diagnose/search/slip.h"
+#include "host/diagnose/candidates/slip.h"
 #include "host/diagnose/search/stability.h"
 
 #define LITTLE 0.01 /* of the largest current, that is none */

@@ -172,6 +172,34 @@ static bool is_of_its_own(const hci_effect_type *type, const hci_effect_type *ot
     return other != &hci_empirical_type && !other->seen_as && !is_called(type, other);
 }
 
+/* Whether a rival of hardly more values describes the recordings as well: what it costs in values does not
+ * make it unlikely, as of a friction whose law comes in as a whole. */
+static bool describes_as_well(const hci_fitted_model *model, const hci_fitted_model *rival)
+{
+    return isfinite(rival->fit.score) && rival->fit.square < model->fit.square + HCI_DECISIVE &&
+           hci_candidates_terms_in(&rival->candidates) <=
+               hci_candidates_terms_in(&model->candidates) + VALUES_MORE;
+}
+
+/* Whether a type in the model makes no mean torque, and is no other torque per ampere. */
+static bool is_of_ripple(const hci_candidates *model, const hci_effect_type *type)
+{
+    for (size_t k = 0; k < model->count; ++k)
+        for (size_t j = 0; model->candidate[k].in && j < model->candidate[k].count; ++j)
+            if (model->candidate[k].type == type && !(model->candidate[k].term[j].order > 1.0)) return false;
+    return true;
+}
+
+/* The same of two parts of the iron where one value stands for a sine and a cosine: the orders of the one are
+ * told by its symmetry, which the recordings do not show. */
+static bool is_same_ripple(const hci_fitted_model *model, const hci_fitted_model *rival,
+                           const hci_effect_type *a, const hci_effect_type *b)
+{
+    return a->propose_coenergy && b->propose_coenergy && is_of_ripple(&model->candidates, a) &&
+           describes_as_well(model, rival) &&
+           hci_candidates_terms_in(&rival->candidates) <= hci_candidates_terms_in(&model->candidates) + 1;
+}
+
 hci_status hci_search_rivals(hci_search *s, const hci_effect_type *type, hci_attribution *a, hci_note *note)
 {
     rivalry r;
@@ -182,23 +210,15 @@ hci_status hci_search_rivals(hci_search *s, const hci_effect_type *type, hci_att
     while (!status && !hci_search_is_over(s)) {
         status = rivalry_next(&r, &rival, &with, note);
         if (status || with == hci_candidate_types()) break;
-        bool equal =
-            is_of_its_own(type, hci_candidate_type(with)) && rival.fit.score < a->model.fit.score + EQUAL;
+        bool equal = is_of_its_own(type, hci_candidate_type(with)) &&
+                     (rival.fit.score < a->model.fit.score + EQUAL ||
+                      is_same_ripple(&a->model, &rival, type, hci_candidate_type(with)));
         if (equal) status = is_as_good(&r, &rival, &equal, note);
         if (!status && equal) rival_mark(&r, with, &rival, a);
         hci_fitted_model_release(&rival);
     }
     rivalry_end(&r);
     return status;
-}
-
-/* Whether a rival of hardly more values describes the recordings as well: what it costs in values does not
- * make it unlikely, as of a friction whose law comes in as a whole. */
-static bool describes_as_well(const hci_fitted_model *model, const hci_fitted_model *rival)
-{
-    return isfinite(rival->fit.score) && rival->fit.square < model->fit.square + HCI_DECISIVE &&
-           hci_candidates_terms_in(&rival->candidates) <=
-               hci_candidates_terms_in(&model->candidates) + VALUES_MORE;
 }
 
 hci_status hci_search_is_told(hci_search *s, const hci_fitted_model *model, const hci_effect_type *type,

@@ -32,7 +32,9 @@ static void heading_of(const hci_diagnosis *d, char text[NAMES_SIZE + 128])
     char added[NAMES_SIZE], either[NAMES_SIZE];
     names_of(d, HCI_FINDING_ADDED, added);
     names_of(d, HCI_FINDING_AMBIGUOUS, either);
-    if (d->verdict == HCI_DIAGNOSIS_COMPLETE)
+    if (d->odd.file)
+        snprintf(text, NAMES_SIZE + 128, "Only %.200s disagrees with the other recordings", d->odd.file);
+    else if (d->verdict == HCI_DIAGNOSIS_COMPLETE)
         snprintf(text, NAMES_SIZE + 128, "The model describes these recordings");
     else if (d->verdict == HCI_DIAGNOSIS_EXPLAINED && added[0])
         snprintf(text, NAMES_SIZE + 128, "The model lacked %s", added);
@@ -52,8 +54,9 @@ static void say_verdict(hci_output *out, const hci_diagnosis *d, const char *mac
     hci_diagnosis_words(d, words, sizeof words);
     heading_of(d, heading);
     snprintf(kicker, sizeof kicker, "Diagnosis of a machine model · %s", machine);
-    hci_html_begin(
-        out, &(hci_html_opening){kicker, BADGE[d->verdict], heading, d->verdict <= HCI_DIAGNOSIS_EXPLAINED});
+    hci_html_begin(out,
+                   &(hci_html_opening){kicker, d->odd.file ? "One recording disagrees" : BADGE[d->verdict],
+                                       heading, d->verdict <= HCI_DIAGNOSIS_EXPLAINED && !d->odd.file});
     hci_html_paragraph(out, "lead", words);
 }
 

@@ -45,13 +45,12 @@ void hci_page_torque(const hci_solution_page *p)
     hci_page_swing(before, p->facts.before_Nm, p->solution->tolerance_Nm);
     hci_page_swing(after, p->facts.after_Nm, p->solution->tolerance_Nm);
     const bool is_smooth = strncmp(after, "less than", 9) == 0; /* than the tolerance of the model */
-    snprintf(
-        heading, sizeof heading,
-        is_smooth && p->is_cut
-            ? "Before the cut to the table nothing is left in the model of a torque that varied by %.0s%s"
-        : is_smooth ? "In the model nothing is left over the angle of a torque that varied by %.0s%s"
-                    : "Over the angle the torque varies by %s, before by %s",
-        after, before);
+    snprintf(heading, sizeof heading,
+             is_smooth && p->is_cut ? "The currents, before they are cut to the table, leave nothing in the "
+                                      "model of a ripple of %.0s%s"
+             : is_smooth            ? "In the model nothing is left of a ripple of %.0s%s"
+                                    : "Over the angle the torque varies by %s, before by %s",
+             after, before);
     hci_html_section(p->out, heading);
     hci_html_drawing_begin(p->out, &drawing);
     table_of_extremes(p);

@@ -17,14 +17,25 @@ const char *hci_tuning_part_name(hci_tuning_part part)
     return NAMES[part];
 }
 
+/* Whether the line that begins at `last` stands before it already. */
+static bool is_said(const char *text, const char *last)
+{
+    const size_t length = strlen(last);
+    for (const char *line = text; line < last; line += strcspn(line, "\n") + 1)
+        if (strncmp(line, last, length) == 0) return true;
+    return false;
+}
+
 void hci_tuning_say(hci_tuning *t, hci_tuning_part part, const char *format, ...)
 {
+    char *last = t->part[part] + strlen(t->part[part]);
     const hci_words words = {t->part[part], sizeof t->part[part]};
     va_list arguments;
     va_start(arguments, format);
     hci_words_say_list(&words, format, arguments);
     va_end(arguments);
     hci_words_say(&words, "\n");
+    if (is_said(t->part[part], last) && *last != ' ') *last = '\0';
 }
 
 void hci_tuning_swing(const hci_solution *s, double *before_Nm, double *after_Nm)

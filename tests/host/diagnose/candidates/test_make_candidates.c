@@ -360,6 +360,22 @@ static void test_without_a_known_turn_no_orders_of_the_turn(void)
     TEST_ASSERT_TRUE(is_offered("cogging", "sine", 6.0));
 }
 
+/* Half a turn does not tell order 7 from 6 or 8: whole electrical orders are all that is looked for. */
+static void test_in_half_a_turn_no_orders_of_the_turn(void)
+{
+    for (size_t r = 0; r < RUNS; ++r)
+        for (size_t k = 0; k < SAMPLES; ++k) {
+            run[r].theta_m_rad[k] *= 0.5;
+            run[r].time_s[k] *= 0.5;
+        }
+    hide(7.0, 0.02);
+    hide(6.0 * P, 0.02);
+    make();
+    TEST_ASSERT_EQUAL_UINT64(0, terms_of("mechanical_order", "", NULL));
+    TEST_ASSERT_EQUAL_UINT64(0, terms_of("position_eccentricity", "", NULL));
+    TEST_ASSERT_TRUE(is_offered("cogging", "sine", 6.0));
+}
+
 /* ---- high powers, and what is known ---- */
 
 static void test_more_is_offered_where_the_iron_saturates(void)
@@ -441,7 +457,18 @@ static void test_the_model_stays_in_the_list(void)
     TEST_ASSERT_EQUAL_UINT64(1, hci_candidates_terms_in(&list));
 }
 
-/* Coulomb friction that runs of one speed tell, beside runs of three: no term of it is there twice. */
+/* The first candidate of a type. */
+static const hci_candidate *law_of(const char *type)
+{
+    size_t k = 0;
+    while (k < list.count && strcmp(list.candidate[k].type->name, type) != 0)
+        ++k;
+    TEST_ASSERT_TRUE(k < list.count);
+    return &list.candidate[k];
+}
+
+/* Coulomb friction that runs of one speed tell, beside runs of three: no term of it is there twice, and the
+ * longer law is in, from the value that is known. */
 static void test_a_law_of_few_runs_gives_way_to_that_of_all(void)
 {
     hci_candidate in = {.type = hci_effect_type_find("friction"), .count = 1, .in = true};
@@ -451,7 +478,11 @@ static void test_a_law_of_few_runs_gives_way_to_that_of_all(void)
     TEST_ASSERT_EQUAL_INT(HCI_OK, make_from(&known));
     TEST_ASSERT_EQUAL_UINT64(1, terms_of("friction", "coulomb", NULL));
     TEST_ASSERT_EQUAL_UINT64(3, terms_of("friction", "", NULL));
-    TEST_ASSERT_EQUAL_UINT64(0, hci_candidates_terms_in(&list));
+    TEST_ASSERT_EQUAL_UINT64(3, hci_candidates_terms_in(&list));
+    const hci_candidate *law = law_of("friction");
+    TEST_ASSERT_EQUAL_UINT64(1, law->grown_from);
+    TEST_ASSERT_EQUAL_DOUBLE(0.03, law->term[0].value);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, law->term[1].value);
     use[1] = use[2] = false; /* the other way round: what is in has more */
     in.count = 2;
     in.term[1] = (hci_effect_term){1, 0.0, 0.001, 0.0001};
@@ -459,6 +490,7 @@ static void test_a_law_of_few_runs_gives_way_to_that_of_all(void)
     TEST_ASSERT_EQUAL_INT(HCI_OK, make_from(&known));
     TEST_ASSERT_EQUAL_UINT64(1, terms_of("friction", "coulomb", NULL));
     TEST_ASSERT_EQUAL_UINT64(2, hci_candidates_terms_in(&list));
+    TEST_ASSERT_EQUAL_UINT64(0, law_of("friction")->grown_from);
 }
 
 /* Of three parts one is in, the last two have left: they stand behind it and may come back. */
@@ -507,6 +539,7 @@ int main(void)
     RUN_TEST(test_known_effects_alone);
     RUN_TEST(test_orders_above_half_the_samples_are_none);
     RUN_TEST(test_without_a_known_turn_no_orders_of_the_turn);
+    RUN_TEST(test_in_half_a_turn_no_orders_of_the_turn);
     RUN_TEST(test_more_is_offered_where_the_iron_saturates);
     RUN_TEST(test_orders_of_iron_end_at_half_the_samples);
     RUN_TEST(test_the_magnetic_circuit_alone);

@@ -177,6 +177,22 @@ static void test_a_value_that_a_run_does_not_show(void)
     TEST_ASSERT_FALSE(is_known());
 }
 
+/* What the current of a shaft makes that hardly accelerates is in units of the modelled torque per ampere:
+ * not linear in a back-EMF. A cogging torque is. */
+static void test_a_value_that_scales_the_reading(void)
+{
+    know(false);
+    run[0].hardly_accelerates = true;
+    candidate("channel_delay", 0.0)->in = false;
+    model_add("back_emf", "sine", NULL, 1.0);
+    know_again();
+    candidate("cogging", 6.0)->term[1].value = 0.02;
+    compare();
+    candidate("back_emf", 1.0)->term[0].value = 0.01;
+    TEST_ASSERT_FALSE(is_known());
+    run[0].hardly_accelerates = false;
+}
+
 /* The one that was asked for longest ago goes. */
 static void test_the_last_ones_are_kept(void)
 {
@@ -204,6 +220,7 @@ int main(void)
     RUN_TEST(test_a_column_that_is_not_there);
     RUN_TEST(test_other_noise_or_runs);
     RUN_TEST(test_a_value_that_a_run_does_not_show);
+    RUN_TEST(test_a_value_that_scales_the_reading);
     RUN_TEST(test_the_last_ones_are_kept);
     return UNITY_END();
 }

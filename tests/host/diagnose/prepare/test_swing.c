@@ -141,6 +141,26 @@ static void test_what_is_no_swing_of_its_own(void)
         TEST_ASSERT_EQUAL_UINT64(0, statistics[r].swings);
 }
 
+/* A motor of a millionth of the torque swings as the large one does. */
+static void test_a_small_motor_swings_too(void)
+{
+    const double small = 1e-6;
+    record(0, &(point){10.0, 3.3, 0.06, 0.0, 0.0});
+    find(0, NULL);
+    TEST_ASSERT_EQUAL_UINT64(1, statistics[0].swings);
+    const hci_swing large = statistics[0].swing[0];
+    for (size_t k = 0; k < N; ++k)
+        run[0].torque_Nm[k] *= small;
+    statistics[0] = hci_run_statistics_of(&run[0], P);
+    const hci_swing_question question = {&run[0], &statistics[0], small * K_NM_PER_A, P};
+    statistics[0].swings = hci_swings_find(&question, NULL, statistics[0].swing);
+    TEST_ASSERT_EQUAL_UINT64(1, statistics[0].swings);
+    const hci_swing *x = &statistics[0].swing[0];
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6 * large.frequency_Hz, large.frequency_Hz, x->frequency_Hz);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, large.cosine_Nm, x->cosine_Nm / small);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, large.sine_Nm, x->sine_Nm / small);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -149,5 +169,6 @@ int main(void)
     RUN_TEST(test_a_multiple_of_the_mains);
     RUN_TEST(test_a_belt);
     RUN_TEST(test_what_is_no_swing_of_its_own);
+    RUN_TEST(test_a_small_motor_swings_too);
     return UNITY_END();
 }

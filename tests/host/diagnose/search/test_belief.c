@@ -89,6 +89,23 @@ static void test_a_lag_of_more_than_a_turn_is_not(void)
     TEST_ASSERT_EQUAL_STRING("torque_sensor", search.disbelieved.type->name);
 }
 
+/* A run in which the shaft stands has no turn, and says nothing of how long one takes. */
+static void test_nor_beside_a_shaft_that_stands(void)
+{
+    record(SAMPLES, &(point){0.0, 2.0, 0.0, 0.0, 0.0});
+    record(SAMPLES, &(point){60.0, 2.0, 0.0, 0.0, 0.0});
+    for (int k = 0; k < 2; ++k)
+        for (size_t j = 0; j < SAMPLES; ++j)
+            run[k].torque_Nm[j] = 0.0;
+    search_start();
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, search.regression->samples->statistics[0].mean_speed_rad_per_s);
+    model_add("torque_sensor", "time_constant", NULL, 0.0);
+    model.candidates.candidate[0].term[0].value = 0.3;
+    fit();
+    TEST_ASSERT_NOT_NULL(search.disbelieved.type);
+    TEST_ASSERT_EQUAL_STRING("torque_sensor", search.disbelieved.type->name);
+}
+
 static void test_nor_a_resonance_that_is_one(void)
 {
     record_share(0.0, 0.0);
@@ -266,6 +283,7 @@ int main(void)
     RUN_TEST(test_weak_magnets_are_believed);
     RUN_TEST(test_a_tenth_of_the_magnets_is_not);
     RUN_TEST(test_a_lag_of_more_than_a_turn_is_not);
+    RUN_TEST(test_nor_beside_a_shaft_that_stands);
     RUN_TEST(test_nor_a_resonance_that_is_one);
     RUN_TEST(test_a_sensor_with_half_its_gain_is_not);
     RUN_TEST(test_a_friction_that_drives_is_not);

@@ -182,6 +182,22 @@ static void test_delays_within_a_slope(void)
     TEST_ASSERT_TRUE(least(delay) <= 0.0);
 }
 
+/* On a shaft that hardly accelerates cogging torque is right to a hundredth, beside which a drag of the iron
+ * and a series in the currents are asked for more; friction is not. */
+static void test_the_iron_beside_cogging_of_a_crawl(void)
+{
+    record_two(HCI_TORQUE_INERTIA);
+    const hci_verdict *drag = add("iron_drag", 900.0), *iron = add("saturation", 900.0);
+    const hci_verdict *friction = add("friction", 900.0);
+    add("cogging", 2e5);
+    TEST_ASSERT_TRUE(least(drag) < 900.0 && least(iron) < 900.0);
+    run[0].hardly_accelerates = true;
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 2000.0, least(drag));
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 2000.0, least(iron));
+    TEST_ASSERT_TRUE(least(friction) < 900.0);
+    run[0].hardly_accelerates = false;
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -193,5 +209,6 @@ int main(void)
     RUN_TEST(test_unlike_phases_beside_a_series);
     RUN_TEST(test_what_a_sensor_that_swings_read);
     RUN_TEST(test_delays_within_a_slope);
+    RUN_TEST(test_the_iron_beside_cogging_of_a_crawl);
     return UNITY_END();
 }

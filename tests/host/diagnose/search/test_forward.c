@@ -3,7 +3,7 @@
 
 #include "support/searching.h"
 
-enum { SAMPLES = 100 }; /* of a run: one electrical period */
+enum { SAMPLES = 100, LONG = 1500 }; /* of a run: one electrical period, and five turns */
 
 void setUp(void)
 {
@@ -73,6 +73,34 @@ static void test_a_second_effect(void)
     TEST_ASSERT_DOUBLE_WITHIN(3.0 * coulomb->std_error, 0.05, coulomb->value);
 }
 
+/* Friction of which runs at one speed told the constant alone is large beside an offset: that comes in beside
+ * the friction, of which more is looked for at two speeds, and not in its place. */
+static void test_a_second_effect_beside_a_law_of_fewer_terms(void)
+{
+    record_small(0.3, 0.1);
+    search_start();
+    model_add("friction", "coulomb", NULL, 0.0);
+    model_fit();
+    TEST_ASSERT_TRUE(step_forward());
+    TEST_ASSERT_TRUE(model_has("current_offset") && model_has("friction"));
+    TEST_ASSERT_EQUAL_UINT64(2, hci_candidates_types_in(&model.candidates));
+}
+
+/* And where nothing else is missing, the rest of the law itself comes in. */
+static void test_a_law_of_fewer_terms_grows(void)
+{
+    for (int k = 0; k < 4; ++k)
+        record(SAMPLES, &(point){k < 2 ? 60.0 : -150.0, k % 2 ? 9.0 : 2.0, 0.0, k < 2 ? 0.05 : -0.09, 0.0});
+    search_start();
+    model_add("friction", "coulomb", NULL, 0.0);
+    model_fit();
+    TEST_ASSERT_TRUE(step_forward());
+    TEST_ASSERT_EQUAL_UINT64(1, hci_candidates_types_in(&model.candidates));
+    const hci_effect_term *viscous = term_in(&model.candidates, "friction", "viscous", 0.0);
+    TEST_ASSERT_DOUBLE_WITHIN(4.0 * viscous->std_error, 0.04 / 90.0, viscous->value);
+    TEST_ASSERT_FALSE(step_forward());
+}
+
 /* A torque that a slow bus brings 4 radians of the current's ripple later: no small step from nothing finds
  * it. At one speed alone it could be early by 2.3 as well. */
 static void test_a_torque_that_is_late_by_radians(void)
@@ -120,6 +148,27 @@ static void test_few_values_before_a_series(void)
     TEST_ASSERT_FALSE(model_has("saturation"));
 }
 
+/* The torque of a saliency at five operating points, with means that are off by a third of the noise of a
+ * sample: a back-EMF and a friction of three powers have a value for each point, and describe them better.
+ * One value does as well but for that. */
+static void test_one_effect_before_two_with_a_value_for_each_point(void)
+{
+    static const double SPEED[] = {10.0, -10.0, 20.0, 15.0, 12.0}, OFF_Nm[] = {1.0, -1.0, 1.0, 1.0, -1.0};
+    static const double D_A[] = {0.0, -6.0, -10.0, -4.0, 4.0}, Q_A[] = {10.0, 10.0, 6.0, -8.0, 5.0};
+    for (size_t k = 0; k < 5; ++k) {
+        record(LONG, &(point){SPEED[k], Q_A[k], 0.0, 0.0, 0.0});
+        for (size_t j = 0; j < LONG; ++j) {
+            rec_phases(D_A[k], Q_A[k], P * run[k].theta_m_rad[j], run[k].i_A + 3 * j);
+            run[k].torque_Nm[j] -= 0.003 * D_A[k] * Q_A[k] - 0.2 * NOISE_NM * OFF_Nm[k];
+        }
+    }
+    search_start();
+    model_fit();
+    TEST_ASSERT_TRUE(step_forward());
+    TEST_ASSERT_TRUE(model_has("reluctance"));
+    TEST_ASSERT_FALSE(model_has("friction") || model_has("back_emf"));
+}
+
 /* A tenth of the torque is there at currents of both signs, which magnets and sensors describe best: of these
  * nobody believes any, and what brakes comes in from behind them. */
 static void test_what_is_not_believed_makes_room(void)
@@ -143,8 +192,11 @@ int main(void)
     RUN_TEST(test_nothing_comes_in_on_noise);
     RUN_TEST(test_the_true_effect_comes_in_alone);
     RUN_TEST(test_a_second_effect);
+    RUN_TEST(test_a_second_effect_beside_a_law_of_fewer_terms);
+    RUN_TEST(test_a_law_of_fewer_terms_grows);
     RUN_TEST(test_a_torque_that_is_late_by_radians);
     RUN_TEST(test_few_values_before_a_series);
+    RUN_TEST(test_one_effect_before_two_with_a_value_for_each_point);
     RUN_TEST(test_what_is_not_believed_makes_room);
     return UNITY_END();
 }

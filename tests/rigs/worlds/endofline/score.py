@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""score.py BIN [--seeds N] [--kinds a,b] [--jobs J] [--keep DIR] [-v]: e exact, h honest, w wrong for each kind and seed."""
+"""score.py BIN [--seeds N|A-B] [--kinds a,b] [--jobs J] [--keep DIR] [-v]: e exact, h honest, w wrong for each kind and seed."""
 import argparse, csv, json, os, re, resource, shutil, subprocess, sys, tempfile, math
 from concurrent.futures import ThreadPoolExecutor
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -87,10 +87,10 @@ def one(binary, kind, seed, keep, again=False):
     json.dump(dict(kind=kind, seed=seed, cls=x['cls'], judged=j, cpu=cpu, code=code, note=note, truth={k: {a: float(b) for a, b in v.items()} for k, v in x['truth'].items()}), open(f+'/judged.json', 'w'))
     return kind, seed, x['cls'], j, cpu, note
 def main():
-    a = argparse.ArgumentParser(); a.add_argument('program'); a.add_argument('--rejudge', action='store_true', help='judge what --keep holds again'); a.add_argument('--seeds', type=int, default=2); a.add_argument('--kinds'); a.add_argument('--jobs', type=int, default=1); a.add_argument('--keep'); a.add_argument('-v', action='store_true'); a = a.parse_args()
-    ks = a.kinds.split(',') if a.kinds else list(world.KINDS); keep = a.keep or tempfile.mkdtemp(); res = []
+    a = argparse.ArgumentParser(); a.add_argument('program'); a.add_argument('--rejudge', action='store_true', help='judge what --keep holds again'); a.add_argument('--seeds', default='0-1', help='A-B, or N for 0 to N-1'); a.add_argument('--kinds'); a.add_argument('--jobs', type=int, default=1); a.add_argument('--keep'); a.add_argument('-v', action='store_true'); a = a.parse_args()
+    first, _, last = ('0-%d' % (int(a.seeds)-1) if a.seeds.isdigit() else a.seeds).partition('-'); ks = a.kinds.split(',') if a.kinds else list(world.KINDS); keep = a.keep or tempfile.mkdtemp(); res = []
     with ThreadPoolExecutor(a.jobs) as ex:
-        for r in ex.map(lambda q: one(a.program, q[1], q[0], keep, a.rejudge), [(s, k) for s in range(a.seeds) for k in ks]):
+        for r in ex.map(lambda q: one(a.program, q[1], q[0], keep, a.rejudge), [(s, k) for s in range(int(first), int(last)+1) for k in ks]):
             res.append(r)
             if a.v or r[3] == 'w': print(f'{r[3]} {r[0]} {r[1]} ({r[2]}, {r[4]:.1f} s): {r[5]}', flush=True)
     print(f"\n{'kind':30s}{'class':9s} e h w")

@@ -1,5 +1,5 @@
 /* Cogging torque that a slip makes: what is declared, read another way, or nothing of it. */
-#include "host/diagnose/search/slip.h"
+#include "host/diagnose/candidates/slip.h"
 
 #include <math.h>
 #include <string.h>

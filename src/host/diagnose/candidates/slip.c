@@ -1,4 +1,4 @@
-#include "host/diagnose/search/slip.h"
+#include "host/diagnose/candidates/slip.h"
 
 #include <math.h>
 

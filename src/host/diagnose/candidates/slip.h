@@ -6,8 +6,8 @@
  *     T(θ) = ± Σ S sin n(±θ + δ) + C cos n(±θ + δ).
  *
  * Another number of pole pairs, and another motor, leave nothing at the declared orders. */
-#ifndef HCI_SRC_HOST_DIAGNOSE_SEARCH_SLIP_H
-#define HCI_SRC_HOST_DIAGNOSE_SEARCH_SLIP_H
+#ifndef HCI_SRC_HOST_DIAGNOSE_CANDIDATES_SLIP_H
+#define HCI_SRC_HOST_DIAGNOSE_CANDIDATES_SLIP_H
 
 #include "host/diagnose/candidates/candidates.h"
 

@@ -1,0 +1,117 @@
+#define _XOPEN_SOURCE 700
+#include "cli/tune/tune_suspect.h"
+
+#include <dirent.h>
+#include <math.h>
+#include <string.h>
+
+#include "hci/math/harmonic.h"
+
+/* ---- the folder ---- */
+
+static bool is_own(const char *name)
+{
+    static const char *const NAMES[] = {"machine",  "runs.csv", "check",       "diagnose",     "target.csv",
+                                        "currents", "table",    "report.html", "summary.json", "commands.sh"};
+    for (size_t k = 0; k < sizeof NAMES / sizeof *NAMES; ++k)
+        if (strcmp(name, NAMES[k]) == 0) return true;
+    return name[0] == '.'; /* itself, the one above, and what is being written */
+}
+
+hci_status cli_tune_claim_folder(const char *folder, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    DIR *open = opendir(folder);
+    if (!open) return HCI_OK; /* new; what else it is, the first file that is written tells */
+    for (struct dirent *at; !status && (at = readdir(open)) != NULL;)
+        if (!is_own(at->d_name))
+            status =
+                hci_note_set(note, HCI_ERROR_ARGUMENT,
+                             "tune: %s has files in it that tune did not write, such as %s; expected a new "
+                             "folder for the results: give --out another one",
+                             folder, at->d_name);
+    closedir(open);
+    return status;
+}
+
+/* ---- an angle that jumps ---- */
+
+#define JUMP_RAD (HCI_PI / 6.0) /* of the electrical or the mechanical turn: less tells order 3 and more */
+enum { STANDS = 4, LEAST_JUMPS = 6 };
+
+/* The mean jump, in rad of a mechanical turn, of an angle that stands for some rows between; 0: of another.
+ */
+static double jump_of(const hci_run *r)
+{
+    double sum = 0.0;
+    size_t jumps = 0;
+    for (size_t k = 1; k < r->count && r->theta_m_rad; ++k) {
+        const double step = fabs(r->theta_m_rad[k] - r->theta_m_rad[k - 1]);
+        jumps += step > 0.0;
+        sum += step;
+    }
+    return jumps >= LEAST_JUMPS && jumps * STANDS <= r->count ? sum / (double)jumps : 0.0;
+}
+
+static void judge_jumps(cli_tuning *t, const hci_run *r)
+{
+    const double jump_rad = jump_of(r);
+    if (!r->time_s || r->zero_is_unknown) return; /* a holding test in steps has no time */
+    if (jump_rad * r->pole_pairs > JUMP_RAD) t->jump_rad = fmax(t->jump_rad, jump_rad * r->pole_pairs);
+}
+
+/* ---- an angle that goes elsewhere ---- */
+
+#define ELSEWHERE 0.5 /* of the way that angle and speed go, rms over parts of a recording */
+enum { PARTS = 16 };
+
+/* Its direction is left to check, which knows a speed without a sign. *ratio: out, of the ways. */
+static bool goes_elsewhere(const hci_run *r, double *ratio)
+{
+    double difference = 0.0, way = 0.0, all_turned = 0.0, all_led = 0.0;
+    if (!r->time_s || !r->theta_m_rad || !r->speed_rad_per_s || r->speed_window > 0 || r->zero_is_unknown ||
+        r->count < PARTS * PARTS)
+        return false;
+    for (size_t part = 0; part < PARTS; ++part) {
+        const size_t from = part * (r->count - 1) / PARTS, to = (part + 1) * (r->count - 1) / PARTS;
+        const double turned = fabs(r->theta_m_rad[to] - r->theta_m_rad[from]);
+        double led = 0.0;
+        for (size_t k = from; k < to; ++k)
+            led +=
+                0.5 * (r->speed_rad_per_s[k] + r->speed_rad_per_s[k + 1]) * (r->time_s[k + 1] - r->time_s[k]);
+        all_turned += turned;
+        all_led += fabs(led);
+        difference += (turned - fabs(led)) * (turned - fabs(led));
+        way += fmax(turned * turned, led * led);
+    }
+    *ratio = all_led > 0.0 ? all_turned / all_led : 0.0;
+    return difference > ELSEWHERE * ELSEWHERE * way;
+}
+
+void cli_tune_suspect(cli_tuning *t)
+{
+    t->jump_rad = 0.0;
+    t->is_not_followed = false;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        judge_jumps(t, &t->runs.run[k]);
+        if (!t->is_not_followed) t->is_not_followed = goes_elsewhere(&t->runs.run[k], &t->angle_to_speed);
+    }
+}
+
+size_t cli_tune_clipped(const cli_tuning *t)
+{
+    size_t clipped = 0;
+    for (size_t k = 0; k < t->runs.count; ++k)
+        clipped += t->runs.run[k].is_clipped;
+    return clipped;
+}
+
+bool cli_tune_is_typed(const cli_tuning *t)
+{
+    bool typed = false;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        if (t->runs.run[k].torque_source == HCI_TORQUE_MEASURED) return false;
+        typed = typed || t->runs.run[k].torque_is_typed;
+    }
+    return typed;
+}

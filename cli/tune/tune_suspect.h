@@ -1,0 +1,16 @@
+/* What is wrong with recordings that can be read, and with the folder for the results. Uses tune_steps. */
+#ifndef HCI_CLI_TUNE_SUSPECT_H
+#define HCI_CLI_TUNE_SUSPECT_H
+
+#include "cli/tune/tune_steps.h"
+
+/* Refuses a folder that has anything else in it than tune writes. */
+hci_status cli_tune_claim_folder(const char *folder, hci_note *note);
+
+/* Sets jump_rad and is_not_followed by the recordings that are used. */
+void cli_tune_suspect(cli_tuning *tune);
+
+/* Recordings whose currents are clipped. */
+size_t cli_tune_clipped(const cli_tuning *tune);
+
+#endif

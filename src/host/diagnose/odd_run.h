@@ -1,0 +1,17 @@
+/* One recording that disagrees with all others: swapped phases, another index, unit or sign in its file.
+ *
+ * In: a machine, and runs. Out: the run without which the machine describes all of them to their noise, and
+ * what would make that run agree. A run that alone shows something is none: the others have to tell its
+ * state, or a slip of one file has to bring it down to its noise. */
+#ifndef HCI_SRC_HOST_DIAGNOSE_ODD_RUN_H
+#define HCI_SRC_HOST_DIAGNOSE_ODD_RUN_H
+
+#include "hci/host/diagnose/diagnose.h"
+
+/* Looks for it. certain: all others are at their noise; else the run only stands out, and is to be looked for
+ * again with the machine that the others give. odd->file is NULL where there is none; it belongs to runs.
+ * HCI_ERROR_INPUT, _MEMORY. O(samples), and of the run that stands out some hundred times its own. */
+hci_status hci_odd_run_find(const hci_machine_data *machine, const hci_effects *effects, const hci_runs *runs,
+                            hci_odd_run *odd, bool *certain, hci_note *note);
+
+#endif

@@ -1,0 +1,74 @@
+#!/bin/sh
+# What tune says of recordings that can be read and are not what they seem, and of a folder that is somebody's.
+#   cli_tune_suspect.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+. "$1/tests/support/common.sh"
+cd "$work" || exit 1
+
+# NAME ANGLE CURRENT: two turns forward and back of seven pole pairs at 6 rpm; angle and current as awk says, of the angle x and the current i that
+# balances cogging torque of order 12 and friction
+crawl() {
+    awk "BEGIN { srand(5); print \"time_s,theta_m_rad,speed_rad_per_s,iq_A,id_A\"; turn = 6.283185307179586
+        for (k = 0; k < 12000; ++k) { way = k < 6000 ? 1 : -1; x = 0.7 + 2 * turn * (k < 6000 ? k : 12000 - k) / 6000
+            i = 0.036 * way - 0.05 * sin(84 * x + 0.4) + 0.002 * (rand() - 0.5)
+            printf \"%.6f,%.7f,%.6f,%.5f,%.5f\n\", k / 300, $2, way * turn / 10, $3, 0.002 * (rand() - 0.5) } }" >"$1"
+}
+# EXIT NAME ...
+tuned() {
+    code=$1 name=$2
+    shift 2
+    run "$code" tune "$name.csv" --pole-pairs 7 --kv 100 --slots 12 --inertia 2e-5 "$@" -o "$name"
+}
+crawl even.csv x i
+tuned 0 even
+says '^tuned: A ripple of 0.008.* falls to'
+
+crawl hall.csv 'int(42 * x / turn) * turn / 42' i
+tuned 1 hall
+says '^not enough in the logs: The angle stands and jumps by 60 electrical degrees, as Hall sensors'
+check "a table over an angle that jumps" [ ! -e hall/table ]
+
+crawl swapped.csv i x
+tuned 1 swapped
+says '^the conventions are not understood: The angle does not go where the speed leads'
+check "a table over a current" [ ! -e swapped/table ]
+
+crawl gear.csv 'x / 5' i
+tuned 1 gear
+check "a table over the angle behind a gear" [ ! -e gear/table ]
+
+crawl clipped.csv x '(i > 0.07 ? 0.07 : i < -0.07 ? -0.07 : i)'
+tuned 1 clipped
+says 'currents in 1 of 1 logs are clipped' 'the crests of the current are all of one value'
+
+crawl weight.csv x 'i + 0.3 * sin(x + 1)'
+tuned 1 weight
+says 'come once or twice a turn, and a load on the shaft makes that as well as the motor'
+crawl crank.csv x 'i + 0.1 * sin(2 * x)'
+tuned 1 crank
+says 'come once or twice a turn, and a load on the shaft makes that as well as the motor'
+
+crawl still.csv x '0.036 * way + 0.0002 * (rand() - 0.5)'
+tuned 1 still
+says "^a table of no use: Nothing"
+
+run 0 tune even.csv --pole-pairs 7 --kv 100 --slots 9 --inertia 2e-5 -o nine
+says 'the largest order found, 12, is none that 9 slots and 14 poles make: 18 and its multiples'
+
+awk -F, 'NR == 1 || int($2 / 3.14159) % 2 == 0' even.csv >gap.csv
+tuned 1 gap
+says 'the logs cover 0.5'
+
+cut -d, -f1-4 even.csv >lone.csv
+tuned 0 lone
+check "i_d is taken as 0" grep -q "i_d in no column and taken as 0" lone/summary.json
+
+mkdir mine
+echo "my log" >mine/log.csv
+run 2 tune even.csv --pole-pairs 7 --kv 100 -o mine
+check "the folder is named" grep -q "mine has files in it that tune did not write, such as log.csv" "$work/stderr"
+check "nothing beside my files" [ "$(ls -A mine)" = log.csv ]
+
+printf 'time_s,Crank angle,Motor encoder,iq_A\n0,1,2,3\n1,2,3,4\n' >two.csv
+run 3 tune two.csv --pole-pairs 7 --kv 100 -o two
+check "both angles are named" grep -q "so may .Motor encoder. be" "$work/stderr"
+finish

@@ -1,0 +1,132 @@
+/* A torque that a drive has estimated from its current behind a filter is never taken as measured, and a
+ * measured one, even of a sensor that lags, is never taken for an estimate. */
+#include "hci/host/recording/run.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "support/draws.h"
+#include "support/files.h"
+#include "support/texts.h"
+#include "unity.h"
+
+enum { N = 3000, POLE_PAIRS = 4, RUNS = 3 };
+
+static const double FILTER_S = 2e-3, STEP_S = 7e-4, CONSTANT = 0.3;
+
+/* What makes the torque column. */
+typedef enum { ESTIMATED, MEASURED, LAGS } made_by;
+
+static hci_runs runs;
+static hci_note note;
+static uint64_t seed;
+
+void setUp(void)
+{
+    files_begin();
+    memset(&runs, 0, sizeof runs);
+    memset(&note, 0, sizeof note);
+    seed = 3;
+}
+
+void tearDown(void)
+{
+    hci_runs_release(&runs);
+    files_end();
+}
+
+/* A run at a mean i_q: its current sensors have noise, the machine has cogging torque of order 6, and what
+ * is logged is rounded to 2.5 mN·m. */
+static void run_write(const char *name, made_by by, double mean_A)
+{
+    double filtered = 0.0, before = 0.0;
+    FILE *file = fopen(files_path(name), "w");
+    TEST_ASSERT_NOT_NULL(file);
+    fprintf(file, "time_s,theta_m_rad,id_A,iq_A,torque_Nm\n");
+    for (size_t k = 0; k < N; ++k) {
+        const double theta_m = 0.0137 * (double)k;
+        const double ripple_A = 0.02 * mean_A * sin(6.0 * POLE_PAIRS * theta_m);
+        const double noise_A = 0.03 * ref_normal(&seed), true_A = mean_A + ripple_A;
+        const double cogging_Nm = by == ESTIMATED ? 0.0 : 0.05 * sin(6.0 * POLE_PAIRS * theta_m + 0.3);
+        const double x = CONSTANT * (true_A + (by == ESTIMATED ? noise_A : 0.0)) + cogging_Nm;
+        const double slope = k > 0 ? (x - before) / STEP_S : 0.0;
+        const double keeps = exp(-STEP_S / FILTER_S);
+        filtered = k > 0 ? x - slope * FILTER_S + (filtered - before + slope * FILTER_S) * keeps : x;
+        before = x;
+        const double torque_Nm =
+            (by == MEASURED ? x : filtered) + (by == ESTIMATED ? 0.0 : 0.004 * ref_normal(&seed));
+        fprintf(file, "%.6f,%.6f,%.6f,%.6f,%.6g\n", STEP_S * (double)k, theta_m, 0.01 * ref_normal(&seed),
+                true_A + noise_A, 0.0025 * floor(torque_Nm / 0.0025 + 0.5));
+    }
+    fclose(file);
+}
+
+static void list_read(made_by by, const double mean_A[RUNS], double inertia_kgm2)
+{
+    const hci_runs_options options = {.run = {.pole_pairs = POLE_PAIRS,
+                                              .inertia_kgm2 = inertia_kgm2,
+                                              .torque_constant_Nm_per_A = CONSTANT}};
+    FILE *list = fopen(files_path("list.csv"), "w");
+    TEST_ASSERT_NOT_NULL(list);
+    fprintf(list, "file,role\n");
+    for (int k = 0; k < RUNS; ++k) {
+        char name[24];
+        snprintf(name, sizeof name, "run%d.csv", k);
+        run_write(name, by, mean_A[k]);
+        fprintf(list, "%s,fit\n", name);
+    }
+    fclose(list);
+    hci_runs_release(&runs);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_runs_read(files_path("list.csv"), &options, &runs, &note),
+                              note.text);
+}
+
+static const double LOADED[RUNS] = {0.0, 8.0, -5.0}, IDLE[RUNS] = {0.0, 0.0, 0.0};
+
+static void test_an_estimate_behind_a_filter_is_not_used(void)
+{
+    list_read(ESTIMATED, LOADED, NAN);
+    for (size_t k = 0; k < RUNS; ++k) {
+        TEST_ASSERT_NULL(runs.run[k].torque_Nm);
+        TEST_ASSERT_EQUAL(HCI_TORQUE_NONE, runs.run[k].torque_source);
+        text_has("estimated from the current and not measured", runs.run[k].remark.text);
+    }
+    text_has("times i_q behind a filter of 2", runs.run[1].remark.text);
+}
+
+static void test_without_a_current_it_follows_the_noise(void)
+{
+    list_read(ESTIMATED, IDLE, NAN);
+    for (size_t k = 0; k < RUNS; ++k)
+        TEST_ASSERT_NULL(runs.run[k].torque_Nm);
+}
+
+static void test_what_is_left_is_a_free_shaft(void)
+{
+    list_read(ESTIMATED, LOADED, 1e-3);
+    TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, runs.run[1].torque_source);
+}
+
+static void test_a_measured_torque_stays(void)
+{
+    static const made_by BY[] = {MEASURED, LAGS};
+    for (size_t j = 0; j < 2; ++j) {
+        list_read(BY[j], LOADED, NAN);
+        for (size_t k = 0; k < RUNS; ++k)
+            TEST_ASSERT_EQUAL(HCI_TORQUE_MEASURED, runs.run[k].torque_source);
+        list_read(BY[j], IDLE, NAN);
+        for (size_t k = 0; k < RUNS; ++k)
+            TEST_ASSERT_EQUAL(HCI_TORQUE_MEASURED, runs.run[k].torque_source);
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_an_estimate_behind_a_filter_is_not_used);
+    RUN_TEST(test_without_a_current_it_follows_the_noise);
+    RUN_TEST(test_what_is_left_is_a_free_shaft);
+    RUN_TEST(test_a_measured_torque_stays);
+    return UNITY_END();
+}
