@@ -208,6 +208,10 @@ static void show_gain(const hci_solution *s, const hci_limit *l)
     static const char *const WHAT[] = {"", "A² less copper", "N·m less ripple",
                                        "N·m nearer to the wanted mean", "% less to widen all limits by"};
     if (!l->binds) return;
+    if (!isfinite(l->gain)) {
+        cli_say("; what more of it gives is not known");
+        return;
+    }
     cli_say("; 1 %s more%s: %.3g %s", unit_of(s, l), l->kind == HCI_LIMIT_VOLTAGE ? " of dc link" : "",
             (s->limit_cost == HCI_COST_LIMITS ? 100.0 : 1.0) * l->gain / scale_of(s, l), WHAT[s->limit_cost]);
 }
@@ -255,8 +259,9 @@ static void show_cost(const hci_solution *s)
     const double mean_Nm = s->order_count ? s->order[0].torque_Nm.cosine : 0.0;
     if (s->limit_cost == HCI_COST_COPPER) cli_say("  limits       kept; they cost copper only\n");
     if (s->limit_cost == HCI_COST_RIPPLE)
-        cli_say("  limits       kept; %s is the smallest within them%s with these components (%.4g N·m)\n",
-                measure_of(s->minimised), s->newton_steps > 0 ? " that was found" : "", s->minimised_Nm);
+        cli_say("  limits       kept; %s is the smallest within them%s with these components (%.4g N·m%s)\n",
+                measure_of(s->minimised), s->newton_steps > 0 ? " that was found" : "", s->minimised_Nm,
+                s->newton_steps > 0 ? ", near these currents; others may have less" : "");
     if (s->limit_cost == HCI_COST_TORQUE) {
         cli_say(
             "  limits       kept; %.6g N·m is the mean torque nearest to %.6g N·m within them that was found "

@@ -19,6 +19,7 @@ typedef struct {
     hci_limit_point *at; /* of rows of angles: which; room */
     size_t *limit_of;    /* whose multiplier a row has: hci_limit_tag, 0 of none; room */
     size_t two_sided, linear;
+    size_t distance;     /* row of the distance from the centre; 0: none */
     size_t *cone, cones; /* rows of each cone */
 
     double *equal; /* rows */

@@ -212,6 +212,7 @@ void hci_limit_add_trust(hci_limit_build *b)
     hci_limit_cone_add(b, 1 + b->coordinates);
     double *head = hci_limit_row_add(b);
     if (head) head[b->n] = 1.0;
+    b->distance = b->rows - 1;
     for (size_t j = 0; j < b->coordinates; ++j) {
         double *row = hci_limit_row_add(b);
         if (!row) return;

@@ -44,6 +44,7 @@ typedef struct {
     double smallest;              /* of what the stage minimises: share, N·m, N·m, A² */
     double highest_Nm, lowest_Nm; /* of a peak-to-peak: torque less what is wanted */
     double current_gain[3], rms_gain[3], voltage_gain, copper_gain;
+    double pull; /* what it would gain from a distance from the centre that is wider by the whole current */
     bool is_infeasible;
     bool is_settled; /* it keeps the limits at every angle */
 } hci_limit_optimum;

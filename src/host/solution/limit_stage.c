@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/math/vector.h"
 #include "host/base/memory.h"
 #include "host/conic/solve.h"
 #include "host/solution/limit_rows.h"
@@ -108,6 +109,9 @@ void hci_limit_stage_read(const hci_limit_build *b, const hci_cone_answer *a, hc
         o->highest_Nm = b->of->scale_Nm * wish[1];
         o->lowest_Nm = b->of->scale_Nm * wish[2];
     }
+    if (b->distance > 0)
+        o->pull = unit * fabs(a->z[b->distance]) * sqrt(hci_vector_dot(b->coordinates, o->x, o->x)) /
+                  b->of->radius_A;
     for (size_t k = 0; k < b->rows; ++k)
         read_gain(b->of->bounds, b->limit_of[k], unit * fabs(a->z[k]) / (1.0 + b->of->widened), o);
 }

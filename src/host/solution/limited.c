@@ -12,7 +12,13 @@
 #include "host/solution/limits.h"
 #include "host/solve/linear.h"
 
-#define NEAR 1e-4 /* share of the torque to which an answer without its last steps tells the mean */
+enum {
+    MOST_MORE = 90
+}; /* components that are tried where fewer were before: the time grows with their cube */
+
+#define SMALL       1e-3 /* share of the torque below which the ripple may be that of orders left out */
+#define SMALL_SWING 4e-3 /* the same from peak to peak */
+#define NEAR        1e-4 /* share of the torque to which an answer without its last steps tells the mean */
 
 static hci_status out_of_memory(hci_note *note)
 {
@@ -169,19 +175,75 @@ static hci_status find_whether_better(const hci_wishes *w, const hci_solution *w
     return status;
 }
 
+/* The set on which w answers has fewer components than the currents without limits. */
+static void tell_cut(const hci_wishes *w, const hci_answer *a)
+{
+    hci_note_add(&w->of->solution->remark,
+                 "within limits the components up to order %g are looked at; without limits they go up to "
+                 "order %g: more can be named with --harmonics",
+                 hci_wishes_top(&w->set), hci_wishes_top(&a->set));
+}
+
+/* without: what there was before w. */
+static hci_status take(hci_wishes *w, const hci_solution *without, hci_answer *a, hci_note *note)
+{
+    hci_solution *s = w->of->solution;
+    bool is_better = true;
+    hci_status status = find_whether_better(w, without, &is_better, note);
+    if (status) return status;
+    if (!is_better) {
+        *s = *without;
+        return HCI_OK;
+    }
+    if (hci_limited_set_is_cut(a, w)) tell_cut(w, a);
+    hci_limits_take_gains(&w->cost, s);
+    status = give(w, a, note);
+    return status ? status : hci_linear_describe(w->of->task, a, s, note);
+}
+
+/* ---- more components ---- */
+
+/* Whether the ripple is so small that the orders that were cut off may be what is left of it. */
+static bool is_worth_more(const hci_wishes *w, const hci_answer *a)
+{
+    const double share = w->program.minimise == HCI_MINIMISE_PEAK_TO_PEAK ? SMALL_SWING : SMALL;
+    return hci_limited_set_is_cut(a, w) && hci_bounds_are_alike(w->of->bounds) && w->program.has_mean &&
+           !(w->of->solution->minimised_Nm > share * w->program.scale_Nm);
+}
+
+/* On all components up to the top order of the currents without limits; `cut` where that finds nothing
+ * better.
+ */
+static hci_status take_better(hci_wishes *cut, const hci_solution *without, hci_answer *a, hci_note *note)
+{
+    const hci_solution first = *cut->of->solution;
+    hci_limit_merit merit, before;
+    hci_wishes w = {.of = cut->of};
+    hci_status status = merit_of(cut, &before, note);
+    if (!status) status = hci_limited_set_choose(a, true, &w, note);
+    if (!status && w.set.count > MOST_MORE) {
+        hci_wishes_release(&w);
+        return take(cut, without, a, note);
+    }
+    if (!status) status = hci_wishes_begin(&w, note);
+    if (!status) status = find(&w, a, note);
+    if (!status) status = merit_of(&w, &merit, note);
+    if (!status && hci_limit_merit_less(&merit, &before, w.program.scale_Nm))
+        status = take(&w, without, a, note);
+    else if (status != HCI_ERROR_MEMORY) {
+        *cut->of->solution = first;
+        status = take(cut, without, a, note);
+    }
+    hci_wishes_release(&w);
+    return status;
+}
+
 static hci_status solve(hci_wishes *w, hci_answer *a, hci_note *note)
 {
     const hci_solution without = *w->of->solution;
-    bool is_better = true;
-    hci_status status = find(w, a, note);
-    if (!status) status = find_whether_better(w, &without, &is_better, note);
-    if (!status && !is_better) {
-        *w->of->solution = without;
-        w->cost = (hci_limit_optimum){0};
-        return HCI_OK;
-    }
-    if (!status) status = give(w, a, note);
-    return status ? status : hci_linear_describe(w->of->task, a, w->of->solution, note);
+    const hci_status status = find(w, a, note);
+    if (status) return status;
+    return is_worth_more(w, a) ? take_better(w, &without, a, note) : take(w, &without, a, note);
 }
 
 /* Where working precision does not do, the currents without limits stay and that is said. */
@@ -198,7 +260,7 @@ hci_status hci_limited_answer(const hci_limited *limited, hci_answer *answer, hc
 {
     hci_wishes w = {.of = limited};
     hci_note why = {{0}};
-    hci_status status = hci_limited_set_choose(answer, &w, note);
+    hci_status status = hci_limited_set_choose(answer, false, &w, note);
     if (!status) status = hci_wishes_begin(&w, note);
     if (!status) {
         status = solve(&w, answer, &why);
@@ -206,8 +268,6 @@ hci_status hci_limited_answer(const hci_limited *limited, hci_answer *answer, hc
             status = give_up(limited->solution, &why);
         else if (status)
             hci_note_set(note, status, "%s", why.text);
-        else
-            hci_limits_take_gains(&w.cost, limited->solution);
     }
     hci_wishes_release(&w);
     return status;

@@ -12,20 +12,27 @@ enum {
     MOST_STEPS = 60,
     PATIENCE = 4, /* steps in which neither the change is halved nor the torque better, after which the
                    * distance is bounded */
-    POLISHES = 3, /* steps after the last, each within less of it */
+    POLISHES = 2, /* steps after the last, each within less of it */
     HALVES = 5    /* of the currents that the first step begins at, where rounding spoils it */
 };
 
 #define FAR           3e-2 /* change of the current above which programs are solved roughly */
 #define COARSE        1e-6 /* change of the current above which steps are coarse */
+#define LOOSE         1e-4 /* the same once they are not */
 #define CONVERGED     1e-8 /* change of the current as a share of it */
 #define CLOSE         3e-3 /* distance as a share of the current at which nothing better is near */
+#define CLOSEST       1e-5 /* the same where the mean is as wanted, so that the ripple is judged alone */
+#define LEFT          1e-6 /* share of the torque; less ripple than that is not looked for */
+#define FREE          5e-7 /* share of the torque that a mean may be off at no charge, see weighed_Nm */
+#define SAME          1e-6 /* share of the torque that does not count */
+#define HELD          0.25 /* share of the promised gain that a step must make for a longer one */
 #define SETTLING      1e-2 /* the same for the last step, which brings peaks within their limits */
 #define POLISH        0.1  /* of that distance, for each further step */
 #define LEAST_SHARE   0.1  /* of the way to an answer */
 #define SHRINK        0.3
 #define AFTER_FAILURE 0.1 /* the same after a step that rounding spoils */
 #define GROW          2.0
+#define CORRECTED     0.1 /* of a step that was not better, for the one that corrects it */
 
 #define MEAN_TO_RIPPLE 2.0 /* ripple that an error of the mean stands for, per its size */
 
@@ -44,7 +51,10 @@ typedef struct {
     hci_anderson mixing;
     double change, radius_A; /* change of the last step as a share; 0: not bounded */
     double share, least_change;
-    int idle, halved; /* steps since the least change was halved; how often the first currents were */
+    double promised_Nm; /* less ripple, by what is linear, of the last step within a bound */
+    int idle, halved;   /* steps since the least change was halved; how often the first currents were */
+    int slow;           /* steps within a bound since one made more of the torque than LEFT */
+    double tried_A;     /* bound of the step that is being corrected, see correct; 0: none is */
 } path;
 
 static double length(const path *p, const double *x)
@@ -116,19 +126,36 @@ hci_status hci_limited_path_merit(const hci_wishes *w, const double *x, hci_limi
     return status;
 }
 
-/* Whether an answer is better than the best. A step within a bound leaves errors of mean and voltage of the
- * order of its square, which the next one takes away: as long as the mean can be had at all, such a step is
- * judged by the ripple with those. */
+/* The ripple with the errors of mean and voltage, which a step within a bound leaves of the order of its
+ * square and the next one takes away. What the last steps take away anyhow is free: charged, it would keep
+ * the steps short (Maratos). */
+static double weighed_Nm(const path *p, const hci_limit_merit *m)
+{
+    const double off_Nm = m->mean_error_Nm + m->overshoot_Nm - FREE * p->wishes->program.scale_Nm;
+    return m->ripple_Nm + MEAN_TO_RIPPLE * fmax(off_Nm, 0.0);
+}
+
+/* Whether steps within a bound are judged by that: as long as the mean can be had at all. */
+static bool is_weighed(const path *p)
+{
+    return p->radius_A > 0.0 && p->wishes->is_coarse && p->wishes->program.has_mean;
+}
+
+/* Whether a precise step takes errors away of a torque and a voltage that were made linear elsewhere, between
+ * the angles too, for no more than copper. */
+static bool tightens(const path *p, const hci_limit_merit *merit)
+{
+    const double same_Nm = SAME * p->wishes->program.scale_Nm;
+    return p->radius_A > 0.0 && merit->overshoot_Nm <= p->merit.overshoot_Nm &&
+           merit->mean_error_Nm <= p->merit.mean_error_Nm + same_Nm &&
+           merit->ripple_Nm <= p->merit.ripple_Nm + same_Nm;
+}
+
+/* Whether an answer is better than the best. */
 static bool is_less(const path *p, const hci_limit_merit *merit)
 {
-    const hci_limit_program *program = &p->wishes->program;
-    hci_limit_merit now = *merit, best = p->merit;
-    if (p->radius_A > 0.0 && p->wishes->is_coarse && program->has_mean) {
-        now.ripple_Nm += MEAN_TO_RIPPLE * (now.mean_error_Nm + now.overshoot_Nm);
-        best.ripple_Nm += MEAN_TO_RIPPLE * (best.mean_error_Nm + best.overshoot_Nm);
-        now.mean_error_Nm = best.mean_error_Nm = now.overshoot_Nm = best.overshoot_Nm = 0.0;
-    }
-    return hci_limit_merit_less(&now, &best, program->scale_Nm);
+    if (is_weighed(p)) return weighed_Nm(p, merit) < weighed_Nm(p, &p->merit);
+    return tightens(p, merit) || hci_limit_merit_less(merit, &p->merit, p->wishes->program.scale_Nm);
 }
 
 /* Keeps the answer where its true torque is better than that of the best. */
@@ -164,6 +191,7 @@ static void move_freely(path *p, double before)
 /* Where the current does not come to rest: from the best answer on, no further than half of the last step. */
 static void bound(path *p)
 {
+    p->promised_Nm = HUGE_VAL;
     p->radius_A = 0.5 * distance(p, p->wishes->x, p->from);
     memcpy(p->from, p->best, p->n * sizeof *p->from);
 }
@@ -180,14 +208,42 @@ static bool is_restless(path *p, bool is_better)
     return p->idle > PATIENCE;
 }
 
-static void move_bounded(path *p, bool is_better)
+/* A step that was not better may have gone the right way, with an error of the square of its length: one
+ * short step beside its end, which takes that away, before a shorter one is tried. */
+static void correct(path *p)
+{
+    p->tried_A = p->radius_A;
+    p->radius_A *= CORRECTED;
+    memcpy(p->from, p->wishes->x, p->n * sizeof *p->from);
+}
+
+/* The bound of the next step from the best answer on. A step that made much less than what was linear
+ * promised is no reason for a longer one. */
+static void bound_next(path *p, bool is_better, double gained_Nm)
 {
     const double moved_A = distance(p, p->wishes->x, p->from);
-    if (!is_better)
+    if (p->tried_A > 0.0)
+        p->radius_A = p->tried_A * (is_better ? 1.0 : SHRINK);
+    else if (!is_better)
         p->radius_A = SHRINK * fmin(p->radius_A, moved_A);
-    else if (moved_A > 0.9 * p->radius_A)
+    else if (moved_A > 0.9 * p->radius_A && (!is_weighed(p) || gained_Nm > HELD * p->promised_Nm))
         p->radius_A *= GROW;
+    p->tried_A = 0.0;
     memcpy(p->from, p->best, p->n * sizeof *p->from);
+}
+
+/* was_Nm: the weighed ripple of the best answer before. */
+static void move_bounded(path *p, bool is_better, double was_Nm)
+{
+    const double gained_Nm = was_Nm - weighed_Nm(p, &p->merit);
+    const bool is_new = !(p->tried_A > 0.0);
+    if (is_new) p->promised_Nm = was_Nm - p->wishes->program.ripple_Nm;
+    if (is_new && !is_better && is_weighed(p)) {
+        correct(p);
+        return;
+    }
+    p->slow = gained_Nm > LEFT * p->wishes->program.scale_Nm ? 0 : p->slow + 1;
+    bound_next(p, is_better, gained_Nm);
 }
 
 /* Where rounding spoils a step: from the best answer on, within less; before there is one, from half of the
@@ -202,25 +258,27 @@ static hci_status step_back(path *p, hci_status status, const hci_note *why, hci
             p->from[j] *= 0.5;
         return HCI_OK;
     }
-    p->radius_A = p->radius_A > 0.0 ? SHRINK * p->radius_A : AFTER_FAILURE * length(p, p->best);
+    p->radius_A =
+        p->radius_A > 0.0 ? SHRINK * fmax(p->radius_A, p->tried_A) : AFTER_FAILURE * length(p, p->best);
+    p->tried_A = 0.0;
     memcpy(p->from, p->best, p->n * sizeof *p->from);
     return HCI_OK;
 }
 
 static hci_status advance(path *p, hci_note *note)
 {
-    const double before = p->change;
+    const double before = p->change, was_Nm = weighed_Nm(p, &p->merit);
     bool is_better = false;
     hci_note why = {{0}};
     hci_status status;
-    p->wishes->is_coarse = p->change > COARSE;
+    p->wishes->is_coarse = p->change > (p->wishes->is_coarse ? COARSE : LOOSE) || p->radius_A > 0.0;
     p->wishes->is_far = p->change > FAR;
     status = step(p, &why);
     if (!status) status = judge(p, &is_better, &why);
     if (status) return step_back(p, status, &why, note);
     p->change = distance(p, p->wishes->x, p->from) / fmax(length(p, p->wishes->x), 1e-12);
     if (p->radius_A > 0.0)
-        move_bounded(p, is_better);
+        move_bounded(p, is_better, was_Nm);
     else if (is_restless(p, is_better))
         bound(p);
     else
@@ -230,6 +288,9 @@ static hci_status advance(path *p, hci_note *note)
 
 static bool goes_on(const path *p)
 {
+    if (is_weighed(p))
+        return p->radius_A > CLOSEST * length(p, p->from) && p->slow < PATIENCE &&
+               p->promised_Nm > LEFT * p->wishes->program.scale_Nm;
     if (p->radius_A > 0.0) return p->radius_A > CLOSE * length(p, p->from);
     return p->wishes->is_coarse || p->change > COARSE || (p->change > CONVERGED && p->idle == 0);
 }
@@ -239,7 +300,7 @@ static bool goes_on(const path *p)
 static hci_status settle_at(path *p, double radius_A, bool is_coarse, hci_note *note)
 {
     p->wishes->is_coarse = is_coarse;
-    p->wishes->is_far = false;
+    p->wishes->is_far = p->wishes->is_hard = false;
     memcpy(p->from, p->best, p->n * sizeof *p->from);
     p->radius_A = radius_A;
     return step(p, note);
@@ -294,8 +355,11 @@ static hci_status polish(path *p, hci_note *note)
     hci_memory_free(p->best);
     p->best = NULL;
     status = judge(p, &ignored, note);
+    p->wishes->is_kept = true;
+    p->wishes->kept_Nm = said.minimised_Nm;
     for (int k = 0; k < POLISHES && !status; ++k)
         status = polish_once(p, radius_A *= POLISH, &said, note);
+    p->wishes->is_kept = false;
     if (!status) give_best(p, &said);
     p->wishes->of->solution->newton_change = p->change;
     return status;
@@ -305,10 +369,11 @@ static hci_status polish(path *p, hci_note *note)
  * rounding spoils that within more, and at last left as they are. */
 static hci_status settle(path *p, hci_note *note)
 {
-    const double least_A = SETTLING * length(p, p->best);
+    const double most_A = SETTLING * length(p, p->best),
+                 least_A = is_weighed(p) ? fmin(most_A, fmax(2.0 * p->radius_A, POLISH * most_A)) : most_A;
     hci_note why = {{0}};
     hci_status status = settle_at(p, least_A, false, &why);
-    if (status == HCI_ERROR_NUMERIC) status = settle_at(p, 3.0 * least_A, false, &why);
+    if (status == HCI_ERROR_NUMERIC) status = settle_at(p, 3.0 * most_A, false, &why);
     if (!status) return polish(p, note);
     if (status == HCI_ERROR_NUMERIC) return settle_at(p, least_A, true, note);
     return hci_note_set(note, status, "%s", why.text);
@@ -329,6 +394,7 @@ static hci_status iterate(path *p, hci_note *note)
     hci_status status = hci_anderson_reset(&p->mixing, p->n) ? out_of_memory(note) : HCI_OK;
     int k = 0;
     p->change = p->least_change = HUGE_VAL;
+    p->wishes->is_coarse = true;
     p->share = 1.0;
     for (; k < MOST_STEPS && goes_on(p) && !status; ++k)
         status = advance(p, note);

@@ -7,9 +7,10 @@
 #include "host/solve/candidates.h"
 
 enum {
-    MOST_TOP = 61, /* order up to which currents may have components where none are named and the torque is
-                    * not linear, so that e + L'i has no last order */
-    LEAST_TOP = 25 /* the same at least */
+    MOST_TOP = 61,    /* order up to which currents may have components where none are named and the torque is
+                       * not linear, so that e + L'i has no last order */
+    MOST_WHOLE = 181, /* the same where the ripple is so small that the orders above matter */
+    LEAST_TOP = 25    /* the same at least */
 };
 
 static hci_status out_of_memory(hci_note *note)
@@ -86,15 +87,24 @@ static hci_status add_zeros(const hci_wishes *w, double top, hci_component_set *
 
 /* ---- all of it ---- */
 
-hci_status hci_limited_set_choose(const hci_answer *a, hci_wishes *w, hci_note *note)
+hci_status hci_limited_set_choose(const hci_answer *a, bool is_whole, hci_wishes *w, hci_note *note)
 {
     const hci_solve_options *o = w->of->options;
     const hci_task *t = w->of->task;
-    const double most = hci_task_is_linear(t) ? HUGE_VAL : MOST_TOP,
+    const double most = hci_task_is_linear(t) ? HUGE_VAL
+                        : is_whole            ? MOST_WHOLE
+                                              : MOST_TOP,
                  top = fmin(most, fmax(LEAST_TOP, hci_wishes_top(&a->set)));
     hci_status status;
     if (o->set || o->choose_at_most > 0) return copy_set(&a->set, &w->set, note);
     status = hci_bounds_are_alike(w->of->bounds) ? hci_candidates(t, top, &w->set, note)
                                                  : every_component(w, top, &w->set, note);
     return !status && t->has_neutral ? add_zeros(w, top, &w->set, note) : status;
+}
+
+bool hci_limited_set_is_cut(const hci_answer *a, const hci_wishes *w)
+{
+    const hci_solve_options *o = w->of->options;
+    return !o->set && o->choose_at_most == 0 && !hci_task_is_linear(w->of->task) &&
+           hci_wishes_top(&a->set) > hci_wishes_top(&w->set) + HCI_ORDER_TOLERANCE;
 }

@@ -13,6 +13,7 @@
 #define FAR_OFF 1e-3 /* share below a limit from which it does not bind */
 
 #define NOISE  1e-5 /* share of what all limits cost that is rounding */
+#define PULL   0.05 /* the same of the pull of a bound on the distance, beside which there are no prices */
 #define HOTTER 1e-3 /* share above the heat of rated_current that is spoken of */
 #define HIGHER 0.1  /* the same of a peak, which lasts a moment */
 
@@ -82,6 +83,17 @@ static void drop_noise(hci_solution *s)
     }
 }
 
+/* Currents that only the distance from the last ones keeps from better ones are no optimum, whose slope a
+ * multiplier would be. */
+static void forget_prices(double pull, hci_solution *s)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < s->limit_count; ++k)
+        sum += s->limit[k].gain * s->limit[k].limit;
+    for (size_t k = 0; k < s->limit_count && pull > PULL * sum; ++k)
+        if (s->limit[k].binds) s->limit[k].gain = NAN;
+}
+
 void hci_limits_take_gains(const hci_limit_optimum *c, hci_solution *s)
 {
     for (size_t k = 0; k < s->limit_count; ++k) {
@@ -93,6 +105,7 @@ void hci_limits_take_gains(const hci_limit_optimum *c, hci_solution *s)
                                                 : sum;
     }
     drop_noise(s);
+    forget_prices(c->pull, s);
 }
 
 /* ---- peaks ---- */

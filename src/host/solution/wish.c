@@ -19,6 +19,7 @@ enum {
 #define STILL  1e-5 /* change of what is minimised below which it becomes precise too */
 #define NEAR   0.97 /* share of a limit from which a peak of the last answer is kept as a row */
 #define BESIDE 0.25 /* of the spacing of samples: of points nearer than that the last is kept */
+#define FLAT   1e-4 /* share of the torque below which its swing tells nothing */
 #define IDLE   0.7  /* share of a limit below which an angle is left out until a peak is there */
 
 static hci_status out_of_memory(hci_note *note)
@@ -41,6 +42,13 @@ static bool range_of(const hci_wishes *l, const hci_limit_grid *g, hci_limit_sta
     return !is_torque || stage == HCI_STAGE_RIPPLE || (stage == HCI_STAGE_COPPER && !p->has_ripple);
 }
 
+/* Whether an answer tells which angles do not matter: not of a torque that is as good as flat, where the few
+ * that are left would bound nothing. */
+static bool tells_angles(const hci_wishes *l, const hci_limit_grid *g, const double range[2])
+{
+    return g->kind != HCI_POINT_TORQUE || range[1] - range[0] > FLAT * l->program.scale_Nm;
+}
+
 /* Adds the peaks of an optimum beyond a limit; *added: how many. */
 static hci_status add_peaks(hci_wishes *l, hci_limit_stage stage, const hci_limit_optimum *o, size_t *added,
                             hci_note *note)
@@ -53,7 +61,8 @@ static hci_status add_peaks(hci_wishes *l, hci_limit_stage stage, const hci_limi
         double range[2], worst;
         if (!range_of(l, &p->grid[q], stage, o, range)) continue;
         status = hci_limit_peaks(&p->field, &p->grid[q], o->x, range, &p->points, &worst);
-        if (!status && stage >= HCI_STAGE_RIPPLE) hci_limit_grid_thin(&p->grid[q], o->x, range, IDLE);
+        if (!status && stage >= HCI_STAGE_RIPPLE && tells_angles(l, &p->grid[q], range))
+            hci_limit_grid_thin(&p->grid[q], o->x, range, IDLE);
     }
     if (stage == HCI_STAGE_FIT) p->widened = 0.0;
     *added = p->points.count - before;

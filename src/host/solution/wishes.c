@@ -11,6 +11,7 @@
 enum { MOST_SLACKS = 4 }; /* of tenfold room for the least copper */
 
 #define REACHED 0.1  /* share of the tolerance within which a wish is called met */
+#define MET     0.5  /* share of the tolerance that orders may be off where they are no equations */
 #define ROUGHLY 1e-4 /* share of the torque within which a mean is met where the solver is not precise */
 #define COSTS   1e-5 /* what a limit costs of the whole, below which it costs nothing */
 
@@ -121,6 +122,13 @@ static bool has_orders(const hci_harmonic_system *s)
     return s->order_count > 0 && s->order[s->order_count - 1] >= HCI_ORDER_TOLERANCE;
 }
 
+/* Whether all orders can be equations: not of torque that is made linear where they are more than the
+ * coordinates, since the last ones, next to nothing, then have no solution to the last digit. */
+static bool has_equations(const hci_wishes *l)
+{
+    return hci_task_is_linear(l->of->task) || l->system.rows <= l->system.unknowns;
+}
+
 /* A mean that is just reached within rounding is not reached. */
 static hci_status solve_ripple(hci_wishes *l, hci_limit_optimum *o, hci_note *note)
 {
@@ -137,19 +145,28 @@ static hci_status solve_ripple(hci_wishes *l, hci_limit_optimum *o, hci_note *no
         "ones");
 }
 
+/* The ripple to which the copper may add its slack: where that was added before, it is not a second time. */
+static double to_keep_Nm(const hci_wishes *l, double smallest_Nm)
+{
+    const double before_Nm = smallest_Nm - HCI_LIMIT_SLACK * l->program.scale_Nm;
+    return l->is_kept ? fmin(smallest_Nm, fmax(l->kept_Nm, before_Nm)) : smallest_Nm;
+}
+
 static hci_status find_ripple(hci_wishes *l, hci_note *note)
 {
     hci_limit_program *p = &l->program;
     hci_limit_optimum o;
     hci_status status;
+    bool is_met;
     p->ripple_Nm = 0.0;
     p->has_ripple = !has_orders(&l->system);
     if (p->has_ripple) return HCI_OK;
     status = solve_ripple(l, &o, note);
     if (!status && !o.is_infeasible) {
-        p->ripple_Nm = fmax(o.smallest, 0.0);
-        p->has_ripple = p->ripple_Nm <= tolerance_Nm(l);
-        if (p->has_mean && !p->has_ripple) note_cost(l, HCI_COST_RIPPLE, &o, p->scale_Nm);
+        p->ripple_Nm = to_keep_Nm(l, fmax(o.smallest, 0.0));
+        is_met = p->ripple_Nm <= tolerance_Nm(l);
+        p->has_ripple = is_met && has_equations(l);
+        if (p->has_mean && !is_met) note_cost(l, HCI_COST_RIPPLE, &o, p->scale_Nm);
         hci_wish_take(l, &o);
     }
     hci_memory_free(o.x);
@@ -201,9 +218,12 @@ static hci_status try_all(hci_wishes *l, bool *is_met, hci_note *note)
     hci_limit_optimum o;
     hci_note ignored = {{0}};
     hci_status status;
-    l->program.has_mean = l->program.has_ripple = true;
+    l->program.has_mean = true;
+    l->program.has_ripple = has_equations(l);
     l->program.ripple_Nm = 0.0;
+    l->program.slack = fmin(HCI_LIMIT_SLACK, MET * l->of->solution->tolerance_Nm / l->program.scale_Nm);
     status = hci_wish_solve(l, HCI_STAGE_COPPER, &o, &ignored);
+    l->program.slack = HCI_LIMIT_SLACK;
     *is_met = !status && !o.is_infeasible && (o.is_settled || l->is_coarse);
     if (*is_met) {
         note_cost(l, HCI_COST_COPPER, &o, o.smallest);
@@ -259,8 +279,8 @@ static hci_status all_wishes(hci_wishes *l, hci_note *note)
     s->limit_cost = HCI_COST_NONE;
     memset(&l->cost, 0, sizeof l->cost);
     if (!l->is_hard) status = try_all(l, &is_met, note);
-    l->is_hard = !is_met;
     if (!status && !is_met) status = in_turn(l, note);
+    l->is_hard = !is_met && !(l->program.has_mean && l->program.ripple_Nm <= tolerance_Nm(l));
     if (has_open_phase(l->of->bounds) && s->limit_cost == HCI_COST_NONE)
         s->limit_cost = !l->program.has_mean     ? HCI_COST_TORQUE
                         : !l->program.has_ripple ? HCI_COST_RIPPLE

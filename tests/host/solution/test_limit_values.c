@@ -141,6 +141,22 @@ static void test_rounding_is_no_price(void)
     }
 }
 
+/* Currents that a bound keeps from better ones have no price; one that hardly pulls takes nothing of it. */
+static void test_no_optimum_has_no_price(void)
+{
+    for (int pulls = 0; pulls < 2; ++pulls) {
+        hci_limits_list(&bounds, &s);
+        hci_limit_optimum cost = {.voltage_gain = 0.5};
+        cost.pull = (pulls ? 0.1 : 0.01) * 0.5 * bounds.line_V;
+        hci_limits_take_gains(&cost, &s);
+        for (size_t k = 0; k < s.limit_count; ++k) {
+            const bool is_voltage = s.limit[k].kind == HCI_LIMIT_VOLTAGE;
+            TEST_ASSERT_EQUAL(is_voltage, s.limit[k].binds);
+            TEST_ASSERT_EQUAL(is_voltage && pulls, isnan(s.limit[k].gain));
+        }
+    }
+}
+
 /* Three times 2 sin 3θ + 0.5 A: a peak of 7.5 A, and 3 √(2 + 0.25) = 4.5 A. */
 static void test_the_neutral_carries_three_times_the_zero_sequence(void)
 {
@@ -165,6 +181,7 @@ int main(void)
     RUN_TEST(test_what_touches_and_what_exceeds);
     RUN_TEST(test_phases_by_themselves);
     RUN_TEST(test_rounding_is_no_price);
+    RUN_TEST(test_no_optimum_has_no_price);
     RUN_TEST(test_the_neutral_carries_three_times_the_zero_sequence);
     return UNITY_END();
 }

@@ -180,7 +180,8 @@ typedef struct {
     bool is_declared;    /* by the machine, not asked for */
     bool of_phases;      /* a voltage: twice that of each phase, as of sinusoidal modulation */
     bool binds;          /* it is touched and costs something */
-    double gain;         /* what 1 more of it would give, by solution.limit_cost; 0 where it does not bind */
+    double gain; /* what 1 more of it would give, by solution.limit_cost; 0 where it does not bind, no number
+                  * where it is not known: the currents are the best that were found, and not at rest */
     hci_limit_touch touch[HCI_MOST_TOUCHES]; /* currents and voltages: where it is touched */
     size_t touch_count;                      /* of them; those beyond HCI_MOST_TOUCHES are not kept */
 } hci_limit;
