@@ -22,7 +22,7 @@ bool cli_tune_is_blocked(const cli_tuning *t)
 {
     return t->has_slip || t->has_misfit || t->has_unsteady || t->has_no_angle || t->has_alias ||
            t->has_standstill || t->inertia_share > 0.0 || t->tells_no_order || t->jump_rad > 0.0 ||
-           t->is_not_followed;
+           t->is_not_followed || cli_tune_all_torque_clipped(t);
 }
 
 /* ---- what is read ---- */

@@ -106,6 +106,22 @@ size_t cli_tune_clipped(const cli_tuning *t)
     return clipped;
 }
 
+size_t cli_tune_torque_clipped(const cli_tuning *t)
+{
+    size_t clipped = 0;
+    for (size_t k = 0; k < t->runs.count; ++k)
+        clipped += t->runs.run[k].torque_is_clipped && t->runs.run[k].torque_source == HCI_TORQUE_MEASURED;
+    return clipped;
+}
+
+bool cli_tune_all_torque_clipped(const cli_tuning *t)
+{
+    size_t measured = 0;
+    for (size_t k = 0; k < t->runs.count; ++k)
+        measured += t->runs.run[k].torque_source == HCI_TORQUE_MEASURED;
+    return measured > 0 && cli_tune_torque_clipped(t) == measured;
+}
+
 bool cli_tune_is_typed(const cli_tuning *t)
 {
     bool typed = false;

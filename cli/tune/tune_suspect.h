@@ -13,4 +13,10 @@ void cli_tune_suspect(cli_tuning *tune);
 /* Recordings whose currents are clipped. */
 size_t cli_tune_clipped(const cli_tuning *tune);
 
+/* Recordings whose measured torque is clipped. */
+size_t cli_tune_torque_clipped(const cli_tuning *tune);
+
+/* Whether no recording has a measured torque but such ones. */
+bool cli_tune_all_torque_clipped(const cli_tuning *tune);
+
 #endif

@@ -314,6 +314,10 @@ static void say_next_turn(cli_tuning *t)
             r, HCI_TUNING_NEXT,
             "Give --inertia, of the rotor with what turns with it, which takes out what accelerates; "
             "or turn the shaft more slowly, a third of the speed or less, with a stiff control.");
+    else if (cli_tune_all_torque_clipped(t))
+        hci_tuning_say(r, HCI_TUNING_NEXT,
+                       "Record again with a torque that stays within the range of sensor, amplifier and "
+                       "logger: set the larger range, take their zero at rest, or use a larger sensor.");
     else if (cli_tune_is_typed(t) && !t->is_solved)
         hci_tuning_say(
             r, HCI_TUNING_NEXT,
@@ -596,6 +600,9 @@ static void append_of_table(cli_tuning *t)
     if (cli_tune_clipped(t) > 0 && t->is_solved)
         append(t, "; currents in %zu of %zu logs are clipped, and what they tell is too small",
                cli_tune_clipped(t), t->runs.count);
+    if (cli_tune_torque_clipped(t) > 0 && t->is_solved)
+        append(t, "; the torque in %zu of %zu logs is clipped, and what lies beyond is missing",
+               cli_tune_torque_clipped(t), t->runs.count);
     if (t->is_solved && *t->solution.corrections)
         append(t, "; this once the drive's sensors, where they are those of the logs, are corrected: %s",
                t->solution.corrections);
@@ -681,6 +688,9 @@ static const char *why_not_solved(const cli_tuning *t)
            : t->has_unsteady ? "The current of a shaft that turns in jerks does not tell its cogging torque, "
                                "so nothing was "
                                "solved"
+           : cli_tune_all_torque_clipped(t) ? "The torque in the logs is clipped at the end of its sensor, "
+                                              "and what lies beyond is missing, "
+                                              "so nothing was solved"
            : cli_tune_is_typed(t)
                ? "The torque in the log is one number in every row, typed and not measured, and tells "
                  "the mean alone, so nothing was solved"
@@ -763,6 +773,7 @@ static const char *verdict_of(const cli_tuning *t)
            : t->has_misfit || t->is_not_followed           ? "the conventions are not understood"
            : t->has_no_angle                               ? "not enough in the logs"
            : t->has_unsteady                               ? "the shaft sticks and slips"
+           : cli_tune_all_torque_clipped(t)                ? "the torque is clipped"
            : t->has_alias                                  ? "the samples lie too far apart"
            : t->inertia_share > 0.0                        ? "the inertia is not believable"
            : t->has_standstill                             ? "not enough in the logs"
@@ -783,7 +794,8 @@ void cli_tune_conclude(cli_tuning *t)
     say_next(t);
     r->good = t->is_emitted && !t->diagnosed && !r->solved && !t->has_doubt && !is_of_no_use(t) &&
               !cli_tune_is_short(t) && !(t->once_a_turn_Nm > 0.0) && !is_far_beyond(t) &&
-              cli_tune_clipped(t) == 0 && !is_never_seen(t) && !misses_torque(t);
+              cli_tune_clipped(t) == 0 && cli_tune_torque_clipped(t) == 0 && !is_never_seen(t) &&
+              !misses_torque(t);
     snprintf(r->verdict, sizeof r->verdict, "%s", verdict_of(t));
     if (t->is_solved)
         set_heading(t);

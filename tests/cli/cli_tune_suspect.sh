@@ -40,6 +40,29 @@ crawl clipped.csv x '(i > 0.07 ? 0.07 : i < -0.07 ? -0.07 : i)'
 tuned 1 clipped
 says 'currents in 1 of 1 logs are clipped' 'the crests of the current are all of one value'
 
+# BEGIN END STAND: a shaft of four pole pairs that another machine turns, without current; the sensor's ends, and rows for which it stands at first
+driven() {
+    awk "BEGIN { srand(9); print \"time_s,theta_m_rad,torque_Nm\"
+        for (k = 0; k < 12000; ++k) { x = 0.2 + 0.0016 * (k < $4 ? 0 : k - $4)
+            y = 0.06 * sin(24 * x + 0.3) + 0.02 * sin(48 * x) - 0.02 + 0.003 * (rand() + rand() + rand() - 1.5)
+            printf \"%.4f,%.7g,%.7g\\n\", k / 1000, x, (y < $2 ? $2 : y > $3 ? $3 : y) } }" >"$1"
+}
+for ends in '-0.03 0' '-0.07 0.03' '0 9'; do
+    driven rail.csv $ends 0
+    run 1 tune rail.csv --pole-pairs 4 --kv 18.38 --slots 12 -o rail
+    says '^the torque is clipped: The torque in the logs is clipped' 'the torque is clipped: in [0-9]* of 12000 rows it stands'
+    check "a clipped torque taken for a slow one" [ "$(grep -c "less often" stdout)" = 0 ]
+    check "a table over a clipped torque" [ ! -e rail/table ]
+    rm -rf rail
+done
+for stand in 1200 4000 6000; do
+    driven wait.csv -9 9 $stand
+    run 0 tune wait.csv --pole-pairs 4 --kv 18.38 --slots 12 -o wait
+    says "in $stand of 12000 rows the angle stays" '  order 6: 0.0(59|6)'
+    check "a delay of one turn at one speed" [ "$(grep -Ec "channel_delay .added|time_constant" stdout)" = 0 ]
+    rm -rf wait
+done
+
 crawl weight.csv x 'i + 0.3 * sin(x + 1)'
 tuned 1 weight
 says 'come once or twice a turn, and a load on the shaft makes that as well as the motor'

@@ -231,6 +231,90 @@ static size_t stretches_leave(rows_task *t, const size_t *fresh, size_t count, d
     return left_out;
 }
 
+/* ---- a torque at the end of its sensor ---- */
+
+#define RAIL_SHARE   0.01 /* of the rows, at the least and the largest value */
+#define RAIL_REPEATS 0.95 /* of the rows that repeat a reading */
+
+enum { LEAST_TIMES = 3 }; /* that the reading comes to its end */
+
+static bool is_at_rail(const double rail[2], double value)
+{
+    return value <= rail[0] || value >= rail[1];
+}
+
+/* Whether what repeats is the least and the largest value, again and again, and not what lies between. A
+ * reading that is taken less often, or is coarse, repeats the values between as well. */
+static bool is_clipped(const rows_task *t, const double *value, const double rail[2])
+{
+    double previous = NAN;
+    size_t at = 0, between = 0, repeats = 0, there = 0, times = 0;
+    for (size_t k = 0; k < t->rows; ++k) {
+        if (!t->is_left[k]) continue;
+        const bool is_rail = is_at_rail(rail, value[k]),
+                   is_again = value[k] >= previous && value[k] <= previous;
+        at += is_rail;
+        between += !is_rail;
+        repeats += is_again;
+        there += is_again && is_rail;
+        times += is_rail && !is_again;
+        previous = value[k];
+    }
+    return between >= LEAST_FRESH && times >= LEAST_TIMES && (double)at > RAIL_SHARE * (double)t->rows &&
+           2 * there > at && (double)there >= RAIL_REPEATS * (double)repeats;
+}
+
+/* Rows at a value. */
+static size_t rows_at(const rows_task *t, const double *value, double at)
+{
+    size_t count = 0;
+    for (size_t k = 0; k < t->rows; ++k)
+        count += t->is_left[k] && value[k] >= at && value[k] <= at;
+    return count;
+}
+
+/* The least and the largest value; infinite where it is not repeated. */
+static void rails_find(const rows_task *t, const double *value, double rail[2])
+{
+    double least = INFINITY, most = -INFINITY;
+    for (size_t k = 0; k < t->rows; ++k)
+        if (t->is_left[k]) least = fmin(least, value[k]), most = fmax(most, value[k]);
+    rail[0] = rows_at(t, value, least) > RAIL_SHARE * (double)t->rows ? least : -HUGE_VAL;
+    rail[1] = rows_at(t, value, most) > RAIL_SHARE * (double)t->rows ? most : HUGE_VAL;
+}
+
+static void say_clipped(const rows_task *t, const double rail[2], size_t left_out)
+{
+    char both[96] = "";
+    if (isfinite(rail[0])) snprintf(both, sizeof both, "%.4g N·m, its least value", rail[0]);
+    if (isfinite(rail[1]))
+        snprintf(both + strlen(both), sizeof both - strlen(both), "%s%.4g N·m, its largest",
+                 *both ? ", or " : "", rail[1]);
+    hci_note_add(t->c->remark,
+                 "the torque is clipped: in %zu of %zu rows it stands at %s, as of a sensor at its end; they "
+                 "are left out, and what lies beyond is missing",
+                 left_out, t->rows, both);
+}
+
+/* Leaves the rows out in which the torque is at least or at most what is told. */
+static void leave_clipped_out(rows_task *t, const double *torque_Nm)
+{
+    double rail[2];
+    size_t left_out = 0;
+    rails_find(t, torque_Nm, rail);
+    if (!is_clipped(t, torque_Nm, rail)) return;
+    for (size_t k = 0; k < t->rows; ++k) {
+        if (!t->is_left[k] || !is_at_rail(rail, torque_Nm[k])) continue;
+        t->is_left[k] = false;
+        ++left_out;
+    }
+    say_clipped(t, rail, left_out);
+    t->still += left_out;
+    t->c->torque_is_clipped = true;
+}
+
+/* ---- readings that stay ---- */
+
 static hci_status leave_still_out(rows_task *t, const readings *x)
 {
     size_t *fresh = hci_memory_new(t->rows + 1, sizeof *fresh), left_out = 0;
@@ -252,6 +336,51 @@ static hci_status leave_still_out(rows_task *t, const readings *x)
     return made ? HCI_OK : memory_error(t);
 }
 
+/* ---- a shaft that stands ---- */
+
+#define STANDS_FOR 20.0 /* times as long as an angle stays at one value while the shaft turns */
+
+enum {
+    LEAST_STAND = 50, /* rows */
+    MOST_STANDS = 8   /* more of them are a shaft that is moved in steps, and measured where it stands */
+};
+
+/* The longest stay of an angle that turns; 0: it does not stand, or is moved in steps. */
+static double stay_of_turning(const rows_task *t, const size_t *fresh, size_t count)
+{
+    size_t stands = 0, turning = 0, rows = 0;
+    for (size_t k = 0; k < count; ++k) {
+        const size_t length = length_of(t, fresh, count, k);
+        if (length > LEAST_STAND) continue;
+        rows += length;
+        ++turning;
+    }
+    const double longest = fmax(LEAST_STAND, STANDS_FOR * (double)rows / fmax(1.0, (double)turning));
+    for (size_t k = 0; k < count; ++k)
+        stands += (double)length_of(t, fresh, count, k) > longest;
+    return turning >= LEAST_FRESH && stands > 0 && stands <= MOST_STANDS ? longest : 0.0;
+}
+
+/* Friction takes of the torque of a shaft that stands what it must, and no angle tells what it is of. */
+static hci_status leave_standing_out(rows_task *t, const double *angle)
+{
+    const readings x = {{angle}, 1, "angle"};
+    size_t *fresh = hci_memory_new(t->rows + 1, sizeof *fresh), left_out = 0;
+    if (fresh == NULL) return memory_error(t);
+    const size_t count = fresh_find(t, &x, fresh);
+    const double longest = stay_of_turning(t, fresh, count);
+    if (longest > 0.0) left_out = stretches_leave(t, fresh, count, longest);
+    if (left_out > 0)
+        hci_note_add(
+            t->c->remark,
+            "in %zu of %zu rows the angle stays while it turns in the others: the shaft stands there, "
+            "or the angle is not read; they are left out",
+            left_out, t->rows);
+    t->still += left_out;
+    hci_memory_free(fresh);
+    return HCI_OK;
+}
+
 /* Torque and currents; beside an angle that goes on these show what the machine does. */
 static hci_status leave_all_still_out(rows_task *t)
 {
@@ -260,6 +389,10 @@ static hci_status leave_all_still_out(rows_task *t)
     hci_status status = HCI_OK;
     for (unsigned which = HCI_RUN_IA; which <= HCI_RUN_IC; ++which)
         if (ready[which]) currents.column[currents.columns++] = ready[which];
+    const double *angle = ready[ready[HCI_RUN_THETA_M] ? HCI_RUN_THETA_M : HCI_RUN_THETA_E];
+    if (torque.column[0] && angle) status = leave_standing_out(t, angle);
+    if (status) return status;
+    if (torque.column[0]) leave_clipped_out(t, torque.column[0]);
     if (torque.column[0]) status = leave_still_out(t, &torque);
     if (!status && currents.columns > 1) status = leave_still_out(t, &currents);
     return status;

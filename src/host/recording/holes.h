@@ -8,7 +8,9 @@
 /* Finds the columns of a recording as hci_run_columns_find does. Where holes may be left out
  * (hci_csv_read_recording) it reads those that say something of their own, and leaves out the rows in which
  * one of them has no number, those that repeat the row before them with its time, and those in which the
- * torque, or all currents, were not read anew. c->ready, c->row and
+ * torque, or all currents, were not read anew. Of a recording with a torque also those in which the shaft
+ * stands while it turns otherwise, and those in which the torque is at the end of its sensor, which sets
+ * c->torque_is_clipped. c->ready, c->row and
  * c->count: of the rows that are left. A column without any number is one that the file does not have, and
  * missing temperatures are interpolated. remark says what was left out, each once. HCI_ERROR_INPUT where more
  * than half of the rows would be, or for a column that cannot be read; HCI_ERROR_MEMORY. */

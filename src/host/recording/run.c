@@ -572,6 +572,7 @@ static hci_status take(reader *r, const hci_csv *csv)
         hci_note_add(&run->remark, "a map of %s, read as the recording of a shaft that its currents hold",
                      hci_csv_map_of(csv));
     run->count = r->columns.count;
+    run->torque_is_clipped = r->columns.torque_is_clipped;
     run->row = r->columns.row;
     r->columns.row = NULL;
     run->name = hci_memory_malloc(strlen(path) + 1);

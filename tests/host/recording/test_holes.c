@@ -338,6 +338,55 @@ static void test_a_few_pairs_are_chance(void)
     }
 }
 
+/* A torque that a sensor with the ends `least` and `most` measures; the angle waits `stand` rows from row
+ * `from`. */
+static void read_driven(double least, double most, int from, int stand)
+{
+    char *text = malloc(ROWS * 60);
+    size_t at = (size_t)sprintf(text, "time_s,theta_m_rad,torque_Nm\n");
+    uint64_t seed = 3;
+    TEST_ASSERT_NOT_NULL(text);
+    for (int k = 0; k < ROWS; ++k) {
+        const int waited = k < from ? 0 : k - from < stand ? k - from : stand;
+        const double theta = 0.02 * (k - waited), torque = 0.1 * sin(6.0 * theta) + 1e-3 * ref_normal(&seed);
+        at += (size_t)sprintf(text + at, "%g,%.9g,%.6g\n", 1e-3 * k, theta, fmin(most, fmax(least, torque)));
+    }
+    read_text(text);
+    free(text);
+}
+
+/* Its ends repeat, and nothing between: that is not a reading that is taken less often. */
+static void test_a_clipped_torque_is_told(void)
+{
+    static const double END_NM[][2] = {{-0.05, 0.05}, {0.0, 1.0}, {-1.0, 0.09}, {-0.03, 0.0}};
+    for (size_t c = 0; c < sizeof END_NM / sizeof *END_NM; ++c) {
+        read_driven(END_NM[c][0], END_NM[c][1], 0, 0);
+        text_has("the torque is clipped", run.remark.text);
+        TEST_ASSERT_NULL(strstr(run.remark.text, "read less often"));
+        TEST_ASSERT_TRUE(run.torque_is_clipped);
+        for (size_t k = 0; k < run.count; ++k)
+            TEST_ASSERT_TRUE(run.torque_Nm[k] > END_NM[c][0] && run.torque_Nm[k] < END_NM[c][1]);
+    }
+    read_driven(-1.0, 1.0, 0, 0);
+    TEST_ASSERT_FALSE(run.torque_is_clipped);
+    TEST_ASSERT_EQUAL_UINT64(ROWS, run.count);
+    read_held(8, 0.0, 1);
+    TEST_ASSERT_FALSE(run.torque_is_clipped);
+}
+
+/* At the beginning, in the middle or at the end of a turn. */
+static void test_rows_of_a_shaft_that_stands_are_left_out(void)
+{
+    static const int FROM[] = {0, 500, 1000};
+    for (size_t c = 0; c < sizeof FROM / sizeof *FROM; ++c) {
+        read_driven(-1.0, 1.0, FROM[c], 200);
+        TEST_ASSERT_INT_WITHIN(1, ROWS - 200, (int)run.count);
+        text_has("of 1200 rows the angle stays", run.remark.text);
+    }
+    read_driven(-1.0, 1.0, 0, 20); /* an encoder may stay for so long */
+    TEST_ASSERT_EQUAL_UINT64(ROWS, run.count);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -359,6 +408,8 @@ int main(void)
     RUN_TEST(test_currents_that_are_read_less_often);
     RUN_TEST(test_a_torque_without_ripple_stays);
     RUN_TEST(test_a_coarse_torque_stays);
+    RUN_TEST(test_a_clipped_torque_is_told);
+    RUN_TEST(test_rows_of_a_shaft_that_stands_are_left_out);
     RUN_TEST(test_memory_runs_out_everywhere);
     return UNITY_END();
 }

@@ -50,7 +50,8 @@ typedef struct {
                          it */
     bool is_unsteady; /* a holding test whose shaft sticks and slips: its current tells no cogging torque */
     bool is_clipped;  /* crests of its current stand at one value: a limit, or a sensor at its end */
-    bool lacks_id;    /* i_q was recorded and i_d not, which is taken as 0 */
+    bool torque_is_clipped;  /* its torque stood at the end of its sensor in rows that are left out */
+    bool lacks_id;           /* i_q was recorded and i_d not, which is taken as 0 */
     bool slow_beside_others; /* a slow turn by what other recordings of its list tell, not by itself */
     double inertia_share;    /* rms of the inertia x acceleration that was taken out of the current, over the
                               * torque    that the current makes; 0: nothing was */
