@@ -305,7 +305,8 @@ static void judge_torque_way(cli_tuning *t)
         t->slip, sizeof t->slip,
         "The torque in %.80s drives the shaft by %.3g N·m in both directions, where friction brakes: its "
         "sign is the other one, or it is what a drive makes and not what a sensor shows; a table of it "
-        "could double the ripple, so nothing was solved; --column torque=-COLUMN turns the sign",
+        "could double the ripple, so nothing was solved; --column torque=-COLUMN turns the sign of a sensor; "
+        "what a drive makes is left out for its current",
         cli_tune_name_of(t, way.run), way.drives_Nm);
 }
 

@@ -12,6 +12,9 @@
 /* Times the largest current that is rated, wanted or recorded under load. */
 #define EXCESS_CURRENT 10.0
 
+/* Times the ripple of a plain sine: a bound that is more says nothing. */
+#define BOUNDLESS 10.0
+
 /* Where nothing is rated and no load recorded; what is solved for then, too. */
 #define LEAST_A 1.0
 
@@ -93,5 +96,5 @@ bool cli_tune_is_unpromised(const cli_tuning *t)
     double before_Nm, after_Nm;
     if (!t->is_solved || e->state != HCI_RIPPLE_KNOWN || !hci_tuning_knows_ripple(&t->solution)) return false;
     hci_tuning_swing(&t->solution, &before_Nm, &after_Nm);
-    return before_Nm >= t->solution.tolerance_Nm && e->peak_to_peak_Nm >= before_Nm;
+    return before_Nm >= t->solution.tolerance_Nm && e->peak_to_peak_Nm > BOUNDLESS * before_Nm;
 }

@@ -13,7 +13,7 @@ void cli_tune_say_excess(const cli_tuning *tune, char *text, size_t size);
 /* What is rated, in N·m; 0: nothing is. */
 double cli_tune_rated_Nm(const cli_tuning *tune);
 
-/* Whether the bound on the machine is not below what a plain sine makes. */
+/* Whether the bound on the machine is so far above what a plain sine makes that it says nothing. */
 bool cli_tune_is_unpromised(const cli_tuning *tune);
 
 #endif
