@@ -8,6 +8,7 @@
 #include "cli/terminal/terminal.h"
 #include "cli/tune/tune_found.h"
 #include "cli/tune/tune_options.h"
+#include "cli/tune/tune_size.h"
 #include "cli/tune/tune_words.h"
 
 static hci_status steps(const cli_arguments *a, cli_tuning *t, hci_note *note)
@@ -20,6 +21,7 @@ static hci_status steps(const cli_arguments *a, cli_tuning *t, hci_note *note)
     if (!status) status = cli_tune_diagnose(t, note);
     if (!status && t->has_diagnosis) cli_tune_say_diagnosis(t);
     if (!status) status = cli_tune_solve(t, note);
+    if (!status) cli_tune_judge_size(t);
     if (!status) status = cli_tune_emit(t, note);
     if (status) return status;
     cli_tune_conclude(t);

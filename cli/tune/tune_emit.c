@@ -137,7 +137,7 @@ hci_status cli_tune_emit(cli_tuning *t, hci_note *note)
 {
     const char *name = t->arguments->value[TUNE_NAME] ? t->arguments->value[TUNE_NAME] : "tuned";
     char currents[CLI_TUNE_PATH], folder[CLI_TUNE_PATH], machine[CLI_TUNE_PATH];
-    if (!t->is_solved) return HCI_OK;
+    if (!t->is_solved || t->size == CLI_TUNE_EXCESS) return HCI_OK;
     cli_tune_path(t, "currents", currents);
     cli_tune_path(t, "table", folder);
     cli_tune_path(t, "diagnose/machine", machine);

@@ -293,6 +293,23 @@ static void judge_current(cli_tuning *t)
     }
 }
 
+/* Friction brakes, so that a torque of the motor at a shaft that is driven is against the motion. In one
+ * direction the zero of the sensor may be it as well. */
+static void judge_torque_way(cli_tuning *t)
+{
+    const cli_tune_torque_way way = cli_tune_torque_way_of(t);
+    t->drives_Nm = way.has_both ? 0.0 : way.drives_Nm;
+    if (t->has_slip || !way.has_both || !(way.drives_Nm > 0.0)) return;
+    t->has_slip = true;
+    snprintf(
+        t->slip, sizeof t->slip,
+        "The torque in %.80s drives the shaft by %.3g N·m in both directions, where friction brakes: its "
+        "sign is the other one, or it is what a drive makes and not what a sensor shows; a table of it "
+        "could double the ripple, so nothing was solved; --column torque=-COLUMN turns the sign of a sensor; "
+        "what a drive makes is left out for its current",
+        cli_tune_name_of(t, way.run), way.drives_Nm);
+}
+
 static void judge_check(cli_tuning *t, const hci_check *c)
 {
     t->counts_pole_pairs = counts_pole_pairs(c);
@@ -300,6 +317,7 @@ static void judge_check(cli_tuning *t, const hci_check *c)
         judge_torque(t, &c->evidence[k]);
     judge_ambiguous(t, c);
     judge_current(t);
+    judge_torque_way(t);
     for (size_t k = 0; k < c->evidences && c->verdict == HCI_CHECK_NOT_UNDERSTOOD; ++k)
         if (c->evidence[k].state == HCI_CHECK_UNMENDED)
             *(is_of_angle(c->evidence[k].name) ? &t->has_misfit : &t->has_doubt) = true;

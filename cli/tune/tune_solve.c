@@ -202,7 +202,7 @@ hci_status cli_tune_solve(cli_tuning *t, hci_note *note)
     cli_tune_path(t, "target.csv", target);
     cli_tune_path(t, "currents", folder);
     choose_torque(t);
-    if (!(t->mean_Nm > 0.0)) return HCI_OK;
+    if (!(t->mean_Nm > 0.0) && !t->arguments->given[TUNE_TORQUE]) return HCI_OK;
     cli_tune_line c = {{"solve", machine, "--target", target, "--auto", "--report", "-o", folder}, 8};
     hci_status status = read_corrected(t, machine, note);
     if (!status) status = open_torque(t, note);

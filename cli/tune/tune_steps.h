@@ -19,6 +19,9 @@ typedef struct {
     const cli_command *init, *harmonics, *emit;
 } cli_tune_commands;
 
+/* Sizes of what was solved for, beside what is rated or was taken for a load. */
+typedef enum { CLI_TUNE_USUAL, CLI_TUNE_LARGE, CLI_TUNE_EXCESS } cli_tune_size;
+
 /* What the steps hand on to each other. Start with zeros. */
 typedef struct {
     const cli_arguments *arguments;
@@ -37,11 +40,12 @@ typedef struct {
     hci_status diagnosed;
     size_t shown;                        /* recording in the report */
     bool has_slip, has_emf, has_cogging; /* check found one; they were measured without load */
-    char slip[320];                      /* the first that was found, in words */
-    bool emf_is_size_alone;              /* has_emf: of a recording whose zero is not that of the others */
-    bool has_diagnosis;                  /* diagnose had something to do */
-    bool has_unsteady;                   /* a slow turn sticks and slips, and no other recording is of use */
-    bool has_no_angle;                   /* a recording has none, and no other is of use */
+    double drives_Nm;       /* mean torque with the motion, without current in one direction; 0: it brakes */
+    char slip[480];         /* the first that was found, in words */
+    bool emf_is_size_alone; /* has_emf: of a recording whose zero is not that of the others */
+    bool has_diagnosis;     /* diagnose had something to do */
+    bool has_unsteady;      /* a slow turn sticks and slips, and no other recording is of use */
+    bool has_no_angle;      /* a recording has none, and no other is of use */
     bool needs_inertia; /* the current of a slow turn does not tell its cogging torque without the inertia */
     bool has_misfit;    /* angle, order or speed contradict each other, and no slip explains it */
     bool counts_pole_pairs; /* something in the recordings does */
@@ -76,6 +80,8 @@ typedef struct {
     hci_solution solution;
     bool is_solved, is_emitted;
     double open_Nm[HCI_TUNING_POINTS]; /* torque without current */
+    cli_tune_size size;                /* of an excess no table is written */
+    double open_swing_Nm, usual_A;     /* of open_Nm, peak to peak; the load that size was judged by */
     hci_tuning tuning;
 } cli_tuning;
 

@@ -98,6 +98,66 @@ void cli_tune_suspect(cli_tuning *t)
     }
 }
 
+/* ---- a torque of friction that drives ---- */
+
+#define OF_RIPPLE 0.1  /* rms: less is what the ends of the turns leave of a ripple, or a zero */
+#define A_WAY     0.05 /* of the samples: fewer are no direction */
+
+/* Sums over one direction. */
+typedef struct {
+    double torque_Nm, square_Nm2, samples;
+} way_sum;
+
+/* Any at all was recorded. */
+static bool has_current(const hci_run *r)
+{
+    for (size_t n = 0; n < 3 * r->count; ++n)
+        if (r->i_A[n] != 0.0) return true;
+    return false;
+}
+
+static void add_way(way_sum way[2], const hci_run *r)
+{
+    for (size_t n = 0; n < r->count; ++n) {
+        way_sum *w = &way[r->speed_rad_per_s[n] > 0.0 ? 0 : 1];
+        if (r->speed_rad_per_s[n] == 0.0) continue;
+        w->torque_Nm += r->torque_Nm[n];
+        w->square_Nm2 += r->torque_Nm[n] * r->torque_Nm[n];
+        w->samples += 1.0;
+    }
+}
+
+/* What is left of the squares about the mean. */
+static double about_mean_Nm2(const way_sum *w)
+{
+    return w->samples > 0.0 ? w->square_Nm2 - w->torque_Nm * w->torque_Nm / w->samples : 0.0;
+}
+
+cli_tune_torque_way cli_tune_torque_way_of(const cli_tuning *t)
+{
+    way_sum way[2] = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+    cli_tune_torque_way x = {0.0, false, t->runs.count};
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        if (r->torque_source != HCI_TORQUE_MEASURED || !r->torque_Nm || !r->speed_rad_per_s || !r->time_s ||
+            has_current(r))
+            continue;
+        if (x.run == t->runs.count) x.run = k;
+        add_way(way, r);
+    }
+    const double samples = way[0].samples + way[1].samples;
+    if (!(samples > 0.0)) return x;
+    const double forward_Nm = way[0].torque_Nm / fmax(way[0].samples, 1.0),
+                 back_Nm = way[1].torque_Nm / fmax(way[1].samples, 1.0),
+                 ripple_Nm = sqrt((about_mean_Nm2(&way[0]) + about_mean_Nm2(&way[1])) / samples);
+    x.has_both = fmin(way[0].samples, way[1].samples) > A_WAY * samples;
+    x.drives_Nm = x.has_both                        ? 0.5 * (forward_Nm - back_Nm)
+                  : way[0].samples > way[1].samples ? forward_Nm
+                                                    : -back_Nm;
+    if (x.drives_Nm < OF_RIPPLE * ripple_Nm) x.drives_Nm = 0.0;
+    return x;
+}
+
 size_t cli_tune_clipped(const cli_tuning *t)
 {
     size_t clipped = 0;

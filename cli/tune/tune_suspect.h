@@ -10,6 +10,16 @@ hci_status cli_tune_claim_folder(const char *folder, hci_note *note);
 /* Sets jump_rad and is_not_followed by the recordings that are used. */
 void cli_tune_suspect(cli_tuning *tune);
 
+/* Of a torque that was measured without current, which friction makes brake. */
+typedef struct {
+    double drives_Nm; /* mean with the motion: half the difference of two directions; 0: it brakes */
+    bool has_both;    /* directions */
+    size_t run;       /* the first with such a torque */
+} cli_tune_torque_way;
+
+/* What stands out of the ripple alone drives. */
+cli_tune_torque_way cli_tune_torque_way_of(const cli_tuning *tune);
+
 /* Recordings whose currents are clipped. */
 size_t cli_tune_clipped(const cli_tuning *tune);
 

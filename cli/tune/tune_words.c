@@ -9,14 +9,12 @@
 #include "cli/terminal/text.h"
 #include "cli/tune/tune_cover.h"
 #include "cli/tune/tune_options.h"
+#include "cli/tune/tune_size.h"
 #include "cli/tune/tune_suspect.h"
 #include "cli/tune/tune_waveforms.h"
 
 /* Times the noise that a ripple may have without being looked at. */
 #define NEAR_NOISE 1.5
-
-/* Times the ripple of a plain sine: a bound that is more says nothing. */
-#define BOUNDLESS 10.0
 
 /* Recordings under load that tell the ripple on the machine, if they are explained. */
 enum { ENOUGH_LOADS = 3 };
@@ -411,8 +409,7 @@ static void swing_of(const cli_tuning *t, double *before_Nm, double *after_Nm)
 /* What a figure of the model leaves open. */
 static const char *not_known(const cli_tuning *t)
 {
-    return t->solution.expected.state == HCI_RIPPLE_KNOWN ? "these recordings do not bound what is left"
-           : t->is_own && (!t->has_emf || t->emf_is_size_alone) && !t->has_load
+    return t->is_own && (!t->has_emf || t->emf_is_size_alone) && !t->has_load
                ? "what harmonics of the real back-EMF add under load is not known"
                : "what is left on the machine is not known";
 }
@@ -482,7 +479,7 @@ static void say_fall(cli_tuning *t, char *text, size_t size)
                      ? "The search for what makes the ripple ended before all was compared"
                      : "The model does not explain the recordings",
                  before_Nm);
-    else if (e->state == HCI_RIPPLE_KNOWN && e->peak_to_peak_Nm < BOUNDLESS * before_Nm)
+    else if (e->state == HCI_RIPPLE_KNOWN)
         say_bound(e, before_Nm, after_Nm, text, size);
     else
         snprintf(text, size, "A ripple of %.3g N·m from peak to peak %s %.3g N·m in the model; %s", before_Nm,
@@ -526,6 +523,8 @@ static void set_heading(cli_tuning *t)
     hci_tuning_swing(&t->solution, &before_Nm, &after_Nm);
     if (lacks_torque(t) && !t->has_cogging && t->declared.model.cogging_count == 0)
         say_lack_of_torque(t, r->heading, sizeof r->heading);
+    else if (t->size == CLI_TUNE_EXCESS)
+        cli_tune_say_excess(t, r->heading, sizeof r->heading);
     else if (before_Nm >= t->solution.tolerance_Nm)
         say_fall(t, r->heading, sizeof r->heading);
     else if (unexplained_Nm(t) > 0.0)
@@ -542,7 +541,8 @@ static void set_heading(cli_tuning *t)
 
 static bool misses_torque(const cli_tuning *t)
 {
-    return t->is_solved && fabs(cli_tune_made_Nm(t) - t->mean_Nm) > NEAR_WANTED * t->mean_Nm;
+    const double much_Nm = t->mean_Nm > 0.0 ? NEAR_WANTED * t->mean_Nm : t->solution.tolerance_Nm;
+    return t->is_solved && fabs(cli_tune_made_Nm(t) - t->mean_Nm) > much_Nm;
 }
 
 static double largest_recorded_A(const cli_tuning *t)
@@ -572,7 +572,8 @@ static bool is_of_no_use(const cli_tuning *t)
     if (!t->is_solved) return false;
     if (!hci_tuning_knows_ripple(&t->solution)) return !t->has_emf;
     swing_of(t, &before_Nm, &after_Nm);
-    return before_Nm >= t->solution.tolerance_Nm && after_Nm >= before_Nm;
+    if (before_Nm < t->solution.tolerance_Nm) return !(t->mean_Nm > 0.0);
+    return after_Nm >= before_Nm;
 }
 
 static void append(cli_tuning *t, const char *format, ...) HCI_PRINTF(2, 3);
@@ -606,6 +607,17 @@ static void append_of_table(cli_tuning *t)
     if (t->is_solved && *t->solution.corrections)
         append(t, "; this once the drive's sensors, where they are those of the logs, are corrected: %s",
                t->solution.corrections);
+    if (t->drives_Nm > 0.0 && t->is_solved)
+        append(t,
+               "; the torque without current is %.3g N·m with the motion on average, where friction brakes: "
+               "either its zero is off, or its sign is the other one (--column torque=-COLUMN) and the table "
+               "doubles the ripple; one direction does not tell, a turn back does",
+               t->drives_Nm);
+    if (t->size == CLI_TUNE_LARGE)
+        append(t,
+               "; without current the torque varies by %.3g N·m, %.3g times the rated torque, and few motors "
+               "have so much: is the torque in N·m, and not in N·cm or lbf·in, and is Kv right?",
+               t->open_swing_Nm, t->open_swing_Nm / cli_tune_rated_Nm(t));
     if (misses_torque(t))
         append(t, "; the table makes %.4g N·m on average, and not the %.4g N·m that were wanted",
                cli_tune_made_Nm(t), t->mean_Nm);
@@ -775,6 +787,7 @@ static const char *verdict_of(const cli_tuning *t)
            : t->has_unsteady                               ? "the shaft sticks and slips"
            : cli_tune_all_torque_clipped(t)                ? "the torque is clipped"
            : t->has_alias                                  ? "the samples lie too far apart"
+           : t->size == CLI_TUNE_EXCESS                    ? "the size is not believable"
            : t->inertia_share > 0.0                        ? "the inertia is not believable"
            : t->has_standstill                             ? "not enough in the logs"
            : !t->is_emitted                                ? "not enough in the logs"
@@ -795,7 +808,8 @@ void cli_tune_conclude(cli_tuning *t)
     r->good = t->is_emitted && !t->diagnosed && !r->solved && !t->has_doubt && !is_of_no_use(t) &&
               !cli_tune_is_short(t) && !(t->once_a_turn_Nm > 0.0) && !is_far_beyond(t) &&
               cli_tune_clipped(t) == 0 && cli_tune_torque_clipped(t) == 0 && !is_never_seen(t) &&
-              !misses_torque(t);
+              !misses_torque(t) && t->size == CLI_TUNE_USUAL && !(t->drives_Nm > 0.0) &&
+              !cli_tune_is_unpromised(t);
     snprintf(r->verdict, sizeof r->verdict, "%s", verdict_of(t));
     if (t->is_solved)
         set_heading(t);
@@ -837,7 +851,8 @@ static void show_before_and_after(const cli_tuning *t)
         cli_say("  ripple, peak to peak, N·m   %10.3g   %14.3g   %s\n", before_Nm, after_Nm, expected);
     cli_say("  peak phase current, A       %10.4g   %14.4g   the same, if the current loop follows\n",
             s->plain_amplitude_A, s->peak_phase_current_A);
-    cli_say("  copper loss, to the sine    %10d   %14.4g   the same\n", 1, s->loss_to_plain);
+    if (isfinite(s->loss_to_plain))
+        cli_say("  copper loss, to the sine    %10d   %14.4g   the same\n", 1, s->loss_to_plain);
 }
 
 /* As they can be typed: the folder by its name. */
@@ -867,7 +882,7 @@ void cli_show_tuning(const cli_tuning *t)
 {
     const hci_tuning *r = &t->tuning;
     cli_say("%s%s" CLI_PLAIN ": %s\n", r->good ? CLI_GOOD : CLI_WARN, r->verdict, r->heading);
-    if (t->is_solved) {
+    if (t->is_solved && t->size != CLI_TUNE_EXCESS) {
         char words[1024];
         show_before_and_after(t);
         hci_expected_ripple_words(&t->solution.expected, words, sizeof words);

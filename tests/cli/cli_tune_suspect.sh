@@ -94,4 +94,47 @@ check "nothing beside my files" [ "$(ls -A mine)" = log.csv ]
 printf 'time_s,Crank angle,Motor encoder,iq_A\n0,1,2,3\n1,2,3,4\n' >two.csv
 run 3 tune two.csv --pole-pairs 7 --kv 100 -o two
 check "both angles are named" grep -q "so may .Motor encoder. be" "$work/stderr"
+# Units that are others: i_q in mA named A, a torque in N·cm, and one in lbf·in that only a rated current makes suspicious
+crawl milli.csv x '1000 * i'
+tuned 1 milli
+says '^the size is not believable: The table would take a peak current of' 'are currents and Kv in the unit'
+check "a table of milliamperes" [ ! -e milli/table ]
+
+# NAME FACTOR OFFSET SIGN WAYS: torque of order 12 without current, friction 0.02 N·m, times the factor, of a sensor at four pole pairs
+sensor() {
+    awk "BEGIN { srand(5); print \"time_s,theta_m_rad,torque_Nm\"; turn = 6.283185307179586
+        for (k = 0; k < 8000; ++k) { way = $5 == 2 && k >= 4000 ? -1 : 1; x = 0.7 + 2 * turn * (way > 0 ? k : 8000 - k) / 4000
+            torque = 0.06 * sin(24 * x + 0.4) - 0.02 * way + 0.003 * (rand() - 0.5)
+            printf \"%.6f,%.7f,%.6f\\n\", k / 1000, x, $2 * $4 * torque + $3 } }" >"$1"
+}
+shaft() {
+    code=$1 name=$2
+    shift 2
+    run "$code" tune "$name.csv" --pole-pairs 4 --kv 18.38 --slots 12 "$@" -o "$name"
+}
+sensor right.csv 1 0 1 2
+shaft 0 right
+sensor centi.csv 100 0 1 2
+shaft 1 centi
+says '^the size is not believable: The table would take' 'are torque and Kv in the unit' 'N·cm'
+check "a table of newton centimetres" [ ! -e centi/table ]
+cp centi.csv rated.csv
+shaft 1 rated --rated-current 6
+says '^the size is not believable: A torque without current of .* times the rated torque of 2.7 N·m, which no motor has'
+sensor pound.csv 8.85 0 1 2
+shaft 1 pound --rated-current 6
+says 'few motors have so much: is the torque in N·m, and not in N·cm or lbf·in'
+
+# A torque that friction does not brake: in both directions its sign, in one its sign or its zero
+sensor turned.csv 1 0 -1 2
+shaft 1 turned
+says '^a convention is broken: The torque in turned.csv drives the shaft by 0.0[12].* in both directions' 'column torque=-COLUMN turns the sign'
+check "a table of a torque of the other sign" [ ! -e turned/table ]
+sensor one.csv 1 0 -1 1
+shaft 1 one
+says 'either its zero is off, or its sign is the other one .--column torque=-COLUMN. and the table doubles the ripple'
+
+# Anti-cogging alone
+run 0 tune right.csv --pole-pairs 4 --kv 18.38 --slots 12 --torque 0 -o alone
+check "no table of anti-cogging alone" [ -e alone/table/tuned.c ]
 finish

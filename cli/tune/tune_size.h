@@ -1,0 +1,19 @@
+/* Whether the sizes of what was found and solved for can be believed. Uses tune_steps. */
+#ifndef HCI_CLI_TUNE_SIZE_H
+#define HCI_CLI_TUNE_SIZE_H
+
+#include "cli/tune/tune_steps.h"
+
+/* Sets size by the solution: a unit that is another one makes a table many times too large. */
+void cli_tune_judge_size(cli_tuning *tune);
+
+/* The first line of a table that is not written for its size; text: of size bytes. */
+void cli_tune_say_excess(const cli_tuning *tune, char *text, size_t size);
+
+/* What is rated, in N·m; 0: nothing is. */
+double cli_tune_rated_Nm(const cli_tuning *tune);
+
+/* Whether the bound on the machine is so far above what a plain sine makes that it says nothing. */
+bool cli_tune_is_unpromised(const cli_tuning *tune);
+
+#endif
