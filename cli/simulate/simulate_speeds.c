@@ -89,11 +89,13 @@ static void show_rows(const hci_speeds *s, bool worst)
     }
 }
 
-static void show_limit(const char *what, double speed_rad_per_s)
+static void show_limit(const char *what, double speed_rad_per_s, const char *where)
 {
-    if (isfinite(speed_rad_per_s))
-        cli_say("  %s does for all orders up to %.6g rpm\n", what,
-                floor(rpm(speed_rad_per_s) * (1.0 + 1e-6)));
+    if (rpm(speed_rad_per_s) < 1.0)
+        cli_say("  %s does not do for all orders, not even at standstill\n", what);
+    else if (isfinite(speed_rad_per_s))
+        cli_say("  %s does for all orders up to %.6g rpm%s\n", what,
+                floor(rpm(speed_rad_per_s) * (1.0 + 1e-6)), where);
 }
 
 #define KNOWN_PERCENT 0.001 /* below it figures are not told apart */
@@ -223,9 +225,11 @@ static void show(const hci_speeds *s, const cli_speeds_words *w)
     show_means(s);
     cli_say("\n");
     show_beyond(s);
-    show_limit("voltage ", s->voltage_rad_per_s);
-    show_limit("sampling", s->sampled_rad_per_s);
-    if (isfinite(s->measured_rad_per_s)) show_limit("loop.csv", s->measured_rad_per_s);
+    const bool is_backward = s->count > 0 && s->row[0].speed_rad_per_s < 0.0;
+    show_limit("voltage ", s->voltage_rad_per_s,
+               is_backward ? " turning forward; backward, the table fades at the same speeds" : "");
+    show_limit("sampling", s->sampled_rad_per_s, "");
+    if (isfinite(s->measured_rad_per_s)) show_limit("loop.csv", s->measured_rad_per_s, "");
     show_response(s);
     show_harm(s);
 }

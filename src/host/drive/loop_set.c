@@ -255,11 +255,11 @@ static void add_order(const maker *m, size_t level, size_t k, partial_turn *x)
     }
 }
 
-/* The dc link that a speed in the direction of the task needs. */
+/* The dc link that a speed needs, turning forward. */
 static double needed_V(const maker *m, const partial_turn *x, double speed_rad_per_s)
 {
     return hci_turn_samples_dc_link_V(&x->turn, m->machine.resistance_ohm, m->task->drive->modulation,
-                                      m->task->backward ? -speed_rad_per_s : speed_rad_per_s);
+                                      speed_rad_per_s);
 }
 
 /* Electrical speed up to which the voltage does; `beyond` where it does for that, too. */

@@ -14,8 +14,6 @@ typedef struct {
     size_t level_count;
     double max_error_A;     /* of the splines; 0: 2e-4 of the largest current */
     double speed_rad_per_s; /* mechanical; 0: the table is used as far as it goes */
-    bool backward; /* of the direction in which the voltage does for the orders; the two differ where the
-                    * machine is no mirror image of itself */
 } hci_loop_task;
 
 /* Start with {0}. */

@@ -348,8 +348,7 @@ hci_status hci_emit_loop(const char *folder, const hci_emit_loop_request *reques
                                 request->levels,
                                 request->level_count,
                                 request->max_error_A,
-                                request->speed_rad_per_s,
-                                false};
+                                request->speed_rad_per_s};
     if (!status) status = hci_loop_set_make(&task, &e.set, note);
     if (!status) status = write_files(&e, folder, note);
     if (!status && result) *result = result_of(&e.set, &task);
