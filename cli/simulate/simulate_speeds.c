@@ -225,9 +225,10 @@ static void show(const hci_speeds *s, const cli_speeds_words *w)
     show_means(s);
     cli_say("\n");
     show_beyond(s);
-    const bool is_backward = s->count > 0 && s->row[0].speed_rad_per_s < 0.0;
+    const bool is_braking = s->count > 0 && s->row[0].speed_rad_per_s * s->torque_Nm < 0.0;
     show_limit("voltage ", s->voltage_rad_per_s,
-               is_backward ? " turning forward; backward, the table fades at the same speeds" : "");
+               is_braking ? ", turning as the torque drives; braking, the table fades at the same speeds"
+                          : "");
     show_limit("sampling", s->sampled_rad_per_s, "");
     if (isfinite(s->measured_rad_per_s)) show_limit("loop.csv", s->measured_rad_per_s, "");
     show_response(s);

@@ -223,11 +223,11 @@ check "what is better is called worse" [ "$(grep -cE 'worse|mean torque' "$work/
 run 0 simulate data/machine_a --table "$work/a" --drive $drive --speeds -300,-900 -o "$work/back"
 says '^ +-300 rpm( +[0-9.]+){6}$' '^ +-900 rpm'
 check "the picture has no word of the direction" grep -q 'speed in rpm, in the negative direction' "$work/back/speeds.svg"
-# There it is the emitted table, which fades at the speeds of turning forward: 6.15 % by a simulator of somebody else's
+# There it is the emitted table, which fades at the speeds at which it drives: 6.15 % by a simulator of somebody else's
 # that runs the emitted C; with orders that end where the voltage does backward it would be 2.79.
 run 0 solve data/machine_c --target "$work/eight.csv" --auto -q -o "$work/eight_c"
 run 0 simulate data/machine_c --table "$work/eight_c" --drive data/drive/machine_c_10kHz.csv --speeds -500 -o "$work/back_c"
-says 'voltage +does for all orders up to [0-9]+ rpm turning forward'
+says 'voltage +does for all orders up to [0-9]+ rpm, turning as the torque drives'
 check "backward it is not the emitted table" awk -F, '$2 == "feedforward" { found = $3 > 5.8 && $3 < 6.5 } END { exit !found }' \
     "$work/back_c/speeds.csv"
 # a table that is the plain sine is not worse than it

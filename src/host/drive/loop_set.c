@@ -255,11 +255,17 @@ static void add_order(const maker *m, size_t level, size_t k, partial_turn *x)
     }
 }
 
-/* The dc link that a speed needs, turning forward. */
+/* Whether the levels are of negative torques alone, or more of them: those drive backward. */
+static bool drives_backward(const hci_loop_task *t)
+{
+    return t->levels[0].torque_Nm + t->levels[t->level_count - 1].torque_Nm < 0.0;
+}
+
+/* The dc link that a speed needs, turning as the torque drives. */
 static double needed_V(const maker *m, const partial_turn *x, double speed_rad_per_s)
 {
     return hci_turn_samples_dc_link_V(&x->turn, m->machine.resistance_ohm, m->task->drive->modulation,
-                                      speed_rad_per_s);
+                                      drives_backward(m->task) ? -speed_rad_per_s : speed_rad_per_s);
 }
 
 /* Electrical speed up to which the voltage does; `beyond` where it does for that, too. */
