@@ -274,32 +274,11 @@ static void say_next_angle(cli_tuning *t)
                    "forward and one back.");
 }
 
-/* Of logs that nothing was solved with, what would do. */
-static void say_next_turn(cli_tuning *t)
+/* How to record again, of logs that nothing was solved with. */
+static void say_next_recording(cli_tuning *t)
 {
     hci_tuning *r = &t->tuning;
-    if (t->has_no_angle)
-        say_next_angle(t);
-    else if (t->jump_rad > 0.0)
-        hci_tuning_say(
-            r, HCI_TUNING_NEXT,
-            "Log an angle that does not jump: of an encoder, or what the drive makes of its Hall "
-            "sensors or its observer between them, and say what it is: --column theta_e_deg=COLUMN "
-            "for electrical degrees. Where the shaft turns steadily, a line through the instants of "
-            "the jumps is such an angle.");
-    else if (t->is_not_followed)
-        hci_tuning_say(r, HCI_TUNING_NEXT,
-                       "Look which columns were read as angle, speed and current, and say it by --column "
-                       "theta_m_rad=COLUMN, speed_rad_per_s=COLUMN and iq_A=COLUMN, in their units.");
-    else if (t->inertia_share > 0.0)
-        hci_tuning_say(r, HCI_TUNING_NEXT,
-                       "Give --inertia in kg·m², or leave it out: turns forward and back tell whether it "
-                       "matters.");
-    else if (t->has_standstill)
-        hci_tuning_say(r, HCI_TUNING_NEXT,
-                       "Turn the shaft slowly under position control, one turn forward and one back, and log "
-                       "angle and i_q; if it did turn, the column that was read as the angle is not it.");
-    else if (t->has_unsteady && !t->has_slip && !t->has_misfit)
+    if (t->has_unsteady && !t->has_slip && !t->has_misfit)
         hci_tuning_say(
             r, HCI_TUNING_NEXT,
             "Turn the shaft evenly: a stiffer position control, or a lower speed with it; its speed "
@@ -329,6 +308,35 @@ static void say_next_turn(cli_tuning *t)
             "forward and one back, log angle and i_q, and give --holding. With one: turn it slowly "
             "without current and log angle and torque; then under load, at three currents "
             "(docs/measuring.md).");
+}
+
+/* Of logs that nothing was solved with, what would do. */
+static void say_next_turn(cli_tuning *t)
+{
+    hci_tuning *r = &t->tuning;
+    if (t->has_no_angle)
+        say_next_angle(t);
+    else if (t->jump_rad > 0.0)
+        hci_tuning_say(
+            r, HCI_TUNING_NEXT,
+            "Log an angle that does not jump: of an encoder, or what the drive makes of its Hall "
+            "sensors or its observer between them, and say what it is: --column theta_e_deg=COLUMN "
+            "for electrical degrees. Where the shaft turns steadily, a line through the instants of "
+            "the jumps is such an angle.");
+    else if (t->is_not_followed)
+        hci_tuning_say(r, HCI_TUNING_NEXT,
+                       "Look which columns were read as angle, speed and current, and say it by --column "
+                       "theta_m_rad=COLUMN, speed_rad_per_s=COLUMN and iq_A=COLUMN, in their units.");
+    else if (t->inertia_share > 0.0)
+        hci_tuning_say(r, HCI_TUNING_NEXT,
+                       "Give --inertia in kg·m², or leave it out: turns forward and back tell whether it "
+                       "matters.");
+    else if (t->has_standstill)
+        hci_tuning_say(r, HCI_TUNING_NEXT,
+                       "Turn the shaft slowly under position control, one turn forward and one back, and log "
+                       "angle and i_q; if it did turn, the column that was read as the angle is not it.");
+    else
+        say_next_recording(t);
 }
 
 /* Of logs that contradict themselves. */
@@ -589,8 +597,8 @@ static void append(cli_tuning *t, const char *format, ...)
     va_end(values);
 }
 
-/* What the table needs of the drive, and does not do. */
-static void append_of_table(cli_tuning *t)
+/* What else than the motor may be in the logs. */
+static void append_of_logs(cli_tuning *t)
 {
     if (t->once_a_turn_Nm > 0.0 && t->is_solved)
         append(
@@ -604,9 +612,11 @@ static void append_of_table(cli_tuning *t)
     if (cli_tune_torque_clipped(t) > 0 && t->is_solved)
         append(t, "; the torque in %zu of %zu logs is clipped, and what lies beyond is missing",
                cli_tune_torque_clipped(t), t->runs.count);
-    if (t->is_solved && *t->solution.corrections)
-        append(t, "; this once the drive's sensors, where they are those of the logs, are corrected: %s",
-               t->solution.corrections);
+}
+
+/* What the size and the sign of a torque make doubtful. */
+static void append_of_doubt(cli_tuning *t)
+{
     if (t->drives_Nm > 0.0 && t->is_solved)
         append(t,
                "; the torque without current is %.3g N·m with the motion on average, where friction brakes: "
@@ -618,6 +628,16 @@ static void append_of_table(cli_tuning *t)
                "; without current the torque varies by %.3g N·m, %.3g times the rated torque, and few motors "
                "have so much: is the torque in N·m, and not in N·cm or lbf·in, and is Kv right?",
                t->open_swing_Nm, t->open_swing_Nm / cli_tune_rated_Nm(t));
+}
+
+/* What the table needs of the drive, and does not do. */
+static void append_of_table(cli_tuning *t)
+{
+    append_of_logs(t);
+    if (t->is_solved && *t->solution.corrections)
+        append(t, "; this once the drive's sensors, where they are those of the logs, are corrected: %s",
+               t->solution.corrections);
+    append_of_doubt(t);
     if (misses_torque(t))
         append(t, "; the table makes %.4g N·m on average, and not the %.4g N·m that were wanted",
                cli_tune_made_Nm(t), t->mean_Nm);
