@@ -62,7 +62,7 @@ const cli_command cli_tune = {
     .names_files = true,
     .word_kind = CLI_FILE,
     .example = "  hci-solve simulate data/machine_a data/drive/driven.csv -o out/driven\n"
-               "  hci-solve tune out/driven/trajectory.csv --pole-pairs 2 --kv 39 -o out/tuned\n"
+               "  hci-solve tune out/driven/trajectory.csv --pole-pairs 2 --kv 39 --torque 2.46 -o out/tuned\n"
                "\nExit codes: 0 done; 1 not enough in the logs, a convention is broken, or something is left "
                "open; " CLI_EXIT_ERRORS,
     .source = "cli/tune.c",
