@@ -787,7 +787,8 @@ def plc_trend(rng, folder):
         n = 1500
         t = np.arange(n) * 0.01
         w = rpm * TAU / 60
-        a = w * t + 1
+        wander = rng.uniform(0.3, 0.6)         # of the shaft about its set speed, so that no ripple stands still at the samples
+        a = w * t + wander * np.sin(TAU * t / 7 + k) + 1
         q = share * m.rated["i"] * np.ones(n)
         T = m.torque(a, to_abc(m.p * a, 0 * a, q)) + m.cogging(a) - m.drag(w + 0 * a) + 0.004 * m.rated["torque"] * rng.standard_normal(n)
         late = a - w * rng.uniform(0, 0.01, n)
