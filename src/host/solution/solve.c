@@ -9,6 +9,7 @@
 
 #include "host/base/memory.h"
 #include "host/currents/plain_sine.h"
+#include "host/machine/torque_constant.h"
 #include "host/solution/expect.h"
 #include "host/solution/hold.h"
 #include "host/solution/limited.h"
@@ -182,19 +183,21 @@ static hci_status fill_system(const hci_task *t, hci_answer *a, hci_solution *s,
 /* ---- all of it ---- */
 
 /* An error is measured against the mean torque, or where that is next to nothing against the largest wanted
- * or cogging torque. */
+ * or cogging torque; where there is none against the torque of 1 A. */
 #define LEAST_SHARE 1e-3
 
 static double torque_scale_Nm(const hci_task *t)
 {
     const double mean_Nm = fabs(hci_target_mean_Nm(t->target));
+    const hci_effects none = {NULL, 0};
     double scale = 0.0;
     for (size_t k = 0; k < t->target->count; ++k)
         scale = fmax(scale,
                      hci_amplitude(t->target->order[k].torque_Nm.sine, t->target->order[k].torque_Nm.cosine));
     for (size_t k = 0; k < t->machine->cogging_count; ++k)
         scale = fmax(scale, hci_amplitude(t->machine->cogging[k].sine, t->machine->cogging[k].cosine));
-    return mean_Nm > 0.0 ? fmax(mean_Nm, LEAST_SHARE * scale) : scale;
+    if (mean_Nm > 0.0) return fmax(mean_Nm, LEAST_SHARE * scale);
+    return scale > 0.0 ? scale : fabs(hci_torque_constant(t->machine, &none));
 }
 
 static hci_status verdict_of(const hci_solution *s)

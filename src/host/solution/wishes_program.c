@@ -10,7 +10,8 @@ enum {
     ROWS_PER_PERIOD = 4     /* samples that are rows from the start */
 };
 
-#define ALIKE 1e-9 /* share of a row within which two are the same */
+#define ALIKE     1e-9 /* share of a row within which two are the same */
+#define NOTHING_A 1e-6 /* a peak below which the currents without limits give no scale */
 
 static hci_status out_of_memory(hci_note *note)
 {
@@ -172,7 +173,7 @@ void hci_wishes_program_begin(hci_wishes *l)
     p->bounds = of->bounds;
     p->minimise = o->minimise == HCI_MINIMISE_AUTO ? HCI_MINIMISE_WORST : o->minimise;
     p->scale_Nm = of->solution->tolerance_Nm / (o->tolerance > 0.0 ? o->tolerance : 1e-6);
-    p->scale_A = fmax(of->solution->peak_phase_current_A, 1e-9);
+    p->scale_A = of->solution->peak_phase_current_A > NOTHING_A ? of->solution->peak_phase_current_A : 1.0;
     for (int s = 0; s < 3; ++s)
         if (of->bounds->current_A[s] > 0.0) p->scale_A = fmin(p->scale_A, of->bounds->current_A[s]);
     if (!(p->scale_Nm > 0.0)) p->scale_Nm = 1.0;

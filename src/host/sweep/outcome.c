@@ -30,14 +30,12 @@ void hci_grid_count(const hci_grid *s, size_t count[HCI_GRID_FAILED + 1])
 /* One value for all phases, or one for each. */
 static void say_phases(const hci_words *w, const char *what, const double limit[3])
 {
-    const char *gap = w->text[0] ? "; " : "";
-    if (limit[0] == limit[1] && limit[1] == limit[2]) {
-        if (limit[0] < HUGE_VAL) hci_words_say(w, "%s%s at most %.5g A", gap, what, limit[0]);
-        return;
-    }
-    for (int s = 0; s < 3; ++s)
+    static const char *const PHASE[3] = {" a", " b", " c"};
+    const bool are_same = limit[0] == limit[1] && limit[1] == limit[2];
+    for (int s = 0; s < (are_same ? 1 : 3); ++s)
         if (limit[s] < HUGE_VAL)
-            hci_words_say(w, "%s%s %c at most %.5g A", s ? "; " : gap, what, "abc"[s], limit[s]);
+            hci_words_say(w, "%s%s%s at most %.5g A", w->text[0] ? "; " : "", what, are_same ? "" : PHASE[s],
+                          limit[s]);
 }
 
 void hci_grid_limits_words(const hci_grid_request *r, char text[HCI_GRID_WORDS_SIZE])

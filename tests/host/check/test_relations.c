@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "host/check/convention_errors.h"
+#include "host/check/pole_pairs.h"
 #include "support/made_up_motor.h"
 #include "unity.h"
 
@@ -280,6 +281,30 @@ static void test_phases(void)
     TEST_ASSERT_TRUE(isnan(value_of("current_sum", "")));
 }
 
+/* A mechanical turn with cogging torque, lcm(24, 8) = 24, and with magnets and teeth that are not alike, 8
+ * and 24; under load it is not the machine's alone. */
+static int pole_pairs_of_ripple(double i_q)
+{
+    static double torque[MOTOR_SAMPLES], theta[MOTOR_SAMPLES];
+    data = motor_data();
+    motor_record(&data, 0.0, i_q, true);
+    for (int k = 0; k < MOTOR_SAMPLES; ++k) {
+        theta[k] = 2.0 * REF_PI * k / MOTOR_SAMPLES;
+        torque[k] = 0.05 * sin(24.0 * theta[k]) + 0.02 * sin(8.0 * theta[k]);
+    }
+    data.run[0].theta = theta;
+    data.run[0].torque = torque;
+    data.run[0].has_torque = true;
+    TEST_ASSERT_TRUE(hci_check_pole_pairs_of_ripple(&data));
+    return data.pole_pairs_of_ripple;
+}
+
+static void test_pole_pairs_by_the_ripple_without_load(void)
+{
+    TEST_ASSERT_EQUAL_INT(4, pole_pairs_of_ripple(0.0));
+    TEST_ASSERT_EQUAL_INT(0, pole_pairs_of_ripple(10.0));
+}
+
 /* ---- all of them */
 
 static void test_a_correct_motor_meets_every_relation(void)
@@ -369,6 +394,7 @@ int main(void)
     RUN_TEST(test_torque);
     RUN_TEST(test_cogging_torque_of_the_recordings);
     RUN_TEST(test_phases);
+    RUN_TEST(test_pole_pairs_by_the_ripple_without_load);
     RUN_TEST(test_a_correct_motor_meets_every_relation);
     RUN_TEST(test_what_can_be_checked_does_not_depend_on_the_interpretation);
     RUN_TEST(test_deviations);

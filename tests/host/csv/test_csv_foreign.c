@@ -314,9 +314,10 @@ static const struct {
     {"# about\n\na,b\n1,2\n", 0, "a"},
     {"Study\nCase,1\nTime(s),Torque(Nm)\n0,1\n1,2\n", 3, "Time(s)"},
     {"Study\r\nCase,1\r\nTime(s),Torque(Nm)\r\n0,1\r\n1,2\r\n", 3, "Time(s)"},
-    {"Title,Torque\nTime(s),Torque(Nm)\n0,1\n1,2\n", 2, "Time(s)"}, /* one known name against two */
-    {"speed,torque\nTime(s),Torque(Nm)\n0,1\n1,2\n", 0, "speed"},   /* either */
-    {"this,that\nup,down\n0,1\n1,2\n", 0, "this"},                  /* either */
+    {"Title,Torque\nTime(s),Torque(Nm)\n0,1\n1,2\n", 2, "Time(s)"},    /* one known name against two */
+    {"speed,torque\nTime(s),Torque(Nm)\n0,1\n1,2\n", 0, "speed"},      /* either */
+    {"Torque,Title\nTorque(Nm),Time(s)\n0,1\n1,2\n", 2, "Torque(Nm)"}, /* the first is known in both */
+    {"this,that\nup,down\n0,1\n1,2\n", 0, "this"},                     /* either */
     {"this,that,more\nup,down\n0,1\n1,2\n", 2, "up"},
     {"Model,X\n,,,\nTIME,CH1,CH2\n0,1,2\n", 3, "TIME"},
     {"Length,4\nSource,CH1\nSecond,Volt\n0,1\n1,2\n", 2, "Source"}, /* a row of units is no header */

@@ -304,6 +304,18 @@ static void test_torque_per_ampere_or_inertia(void)
     TEST_ASSERT_NOT_NULL(strstr(diagnosis.advice, "the voltages of the open terminals would tell"));
 }
 
+/* A ripple is none of the ratio: it is beside it and certain. */
+static void test_a_ripple_is_no_wrong_inertia(void)
+{
+    record_free(false);
+    for (int k = 0; k < 4; ++k)
+        for (size_t j = 0; j < 900; ++j)
+            run[k].torque_Nm[j] += 0.05 * sin(6.0 * P * run[k].theta_m_rad[j]);
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_AMBIGUOUS, found("back_emf")->verdict);
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("cogging")->verdict);
+}
+
 static void test_a_torque_sensor_tells_them(void)
 {
     record_free(true);
@@ -378,6 +390,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_cogging_at_one_current);
     RUN_TEST(test_torque_per_ampere_or_inertia);
+    RUN_TEST(test_a_ripple_is_no_wrong_inertia);
     RUN_TEST(test_a_torque_sensor_tells_them);
     RUN_TEST(test_equal_phases_are_a_back_emf);
     RUN_TEST(test_unequal_phases_are_not);

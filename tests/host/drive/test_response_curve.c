@@ -142,6 +142,26 @@ static void test_the_grid_is_read_by_straight_lines(void)
                               grid[hci_response_curve_grid(both, HIGHEST, 12, grid) - 1]);
 }
 
+static size_t points_with(double wiggle)
+{
+    static hci_curve_point point[24];
+    double grid[256];
+    point[0] = (hci_curve_point){1e3, 1.0, 1.0};
+    for (int k = 1; k < 24; ++k)
+        point[k] = (hci_curve_point){2e3 + 50.0 * k, 1e-6 + (k % 2 ? wiggle : 0.0), 1.0};
+    const hci_response_curve c = {
+        .point = point, .count = 24, .usable = 24, .sample_s = T_s, .kind = HCI_CURVE_STRAIGHT};
+    const hci_response_curve both[2] = {c, c};
+    return hci_response_curve_grid(both, 3.1e3, 256, grid);
+}
+
+/* 2e-5 of the largest, against 1e-3 of a twentieth of that. */
+static void test_what_is_small_beside_the_largest_is_not_followed(void)
+{
+    TEST_ASSERT_EQUAL(points_with(0.0), points_with(2e-5));
+    TEST_ASSERT_TRUE(points_with(2e-3) > points_with(0.0));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -150,5 +170,6 @@ int main(void)
     RUN_TEST(test_another_kind_of_loop_is_told_by_its_ratio);
     RUN_TEST(test_too_few_points_below_half_the_sampling_are_joined_straight);
     RUN_TEST(test_the_grid_is_read_by_straight_lines);
+    RUN_TEST(test_what_is_small_beside_the_largest_is_not_followed);
     return UNITY_END();
 }

@@ -455,6 +455,26 @@ static void test_same_request_same_bytes(void)
     TEST_ASSERT_NULL(strstr(source, files_root));
 }
 
+static void expect_motor(const char *name, size_t pole_pairs, const char *line)
+{
+    const currents c = injected();
+    hci_emit_request r = request_for(&c);
+    snprintf(r.facts.machine, sizeof r.facts.machine, "%s", name);
+    r.facts.pole_pairs = pole_pairs;
+    (void)emit_well(&r);
+    const char *found = strstr(read_text("ripple_free.h"), " * Motor:");
+    TEST_ASSERT_EQUAL(line != NULL, found != NULL);
+    if (line) TEST_ASSERT_EQUAL_STRING_LEN(line, found, strlen(line));
+}
+
+static void test_motor_is_named_where_it_is_known(void)
+{
+    expect_motor("", 0, NULL);
+    expect_motor("fan", 0, " * Motor:  fan.\n");
+    expect_motor("fan", 1, " * Motor:  fan, 1 pole pair.\n");
+    expect_motor("", 7, " * Motor:  name not known, 7 pole pairs.\n");
+}
+
 static void test_header_says_what_a_reader_must_know(void)
 {
     static const char *const lines[] = {"machine: A, pole pairs 2"};
@@ -785,6 +805,7 @@ int main(void)
     RUN_TEST(test_crc_is_of_the_rows_and_guards_them);
     RUN_TEST(test_probes_catch_other_currents);
     RUN_TEST(test_same_request_same_bytes);
+    RUN_TEST(test_motor_is_named_where_it_is_known);
     RUN_TEST(test_header_says_what_a_reader_must_know);
     RUN_TEST(test_header_says_what_a_loop_has_to_follow);
     RUN_TEST(test_names_that_are_no_identifiers_are_refused);

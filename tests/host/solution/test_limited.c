@@ -561,6 +561,27 @@ static void test_memory_runs_out(void)
     TEST_ASSERT_EQUAL(HCI_NOT_REACHED, status);
 }
 
+/* Without a wanted torque no current would flow, but the back-EMF of 20 V is above the 30/√3 V of the dc
+ * link. A current i_d that keeps it: (R i_d)² + (E + ω L i_d)² = V²; where the torque does not count the
+ * least is (E − V)/|R + jω L|. */
+static void test_a_voltage_limit_without_torque(void)
+{
+    const double volt = 30.0 / sqrt(3.0), r = 0.4, x = 0.6;
+    order[0].torque_Nm.cosine = 0.0;
+    options.speed_rad_per_s = 100.0;
+    options.limit_voltage_V = 30.0;
+    solve(HCI_OK);
+    TEST_ASSERT_DOUBLE_WITHIN(
+        1e-4, (20.0 * x - sqrt(400.0 * x * x - (r * r + x * x) * (400.0 - volt * volt))) / (r * r + x * x),
+        solution.peak_phase_current_A);
+    order[0].weight = 0.0;
+    solve(HCI_OK);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-4, (20.0 - volt) / hypot(r, x), solution.peak_phase_current_A);
+    options.limit_current_A = 2.0; /* both are exceeded by the same share */
+    solve(HCI_NOT_REACHED);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-4, 20.0 / (volt + 2.0 * hypot(r, x)) - 1.0, solution.exceeded_share);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -588,5 +609,6 @@ int main(void)
     RUN_TEST(test_power_balance_of_the_voltage);
     RUN_TEST(test_the_other_direction_is_a_mirror_image);
     RUN_TEST(test_memory_runs_out);
+    RUN_TEST(test_a_voltage_limit_without_torque);
     return UNITY_END();
 }

@@ -72,6 +72,27 @@ static hci_grid_row solve(hci_grid_point point)
     return row;
 }
 
+/* ---- what is said of limits ---- */
+
+static void test_limits_are_said_phase_by_phase(void)
+{
+    char text[HCI_GRID_WORDS_SIZE];
+    options.limits.rms_A[0] = 3.0;
+    options.limits.rms_A[2] = 5.0;
+    hci_grid_limits_words(&request, text);
+    TEST_ASSERT_EQUAL_STRING(
+        "phase current at most 10 A; rms current a at most 3 A; rms current c at most 5 A; "
+        "line voltage at most 60 V",
+        text);
+    options.limits.rms_A[2] = options.limits.rms_A[1] = 3.0;
+    options.limit_current_A = 0.0;
+    hci_grid_limits_words(&request, text);
+    TEST_ASSERT_EQUAL_STRING("rms current at most 3 A; line voltage at most 60 V", text);
+    options.limits.rms_A[0] = options.limits.rms_A[2] = 0.0;
+    hci_grid_limits_words(&request, text);
+    TEST_ASSERT_EQUAL_STRING("rms current b at most 3 A; line voltage at most 60 V", text);
+}
+
 /* ---- the envelope ---- */
 
 /* Below: at the corner of circle and ellipse (ω ψ + ω L i_d)² + (ω L i_q)² = U²/3; beyond i_d = −ψ/L, which
@@ -384,6 +405,7 @@ int main(void)
     RUN_TEST(test_the_order_of_a_map);
     RUN_TEST(test_points_are_read_as_they_were_written);
     RUN_TEST(test_points_of_other_numbers_are_refused);
+    RUN_TEST(test_limits_are_said_phase_by_phase);
     RUN_TEST(test_points_of_other_inputs_are_refused);
     return UNITY_END();
 }

@@ -75,7 +75,7 @@ static void test_what_shows_in_the_sum_is_noticeable(void)
 
 /* Four runs in which nothing flows and each sensor reads its zero, one of them drifted, beside a run at 9 A.
  */
-static void record_zeros(double drift)
+static void record_zeros(double drift, double torque_noise_Nm)
 {
     for (size_t r = 0; r < 5; ++r) {
         record(4 * N, &(point){r % 2 ? -60.0 : 60.0, r < 4 ? 0.0 : 9.0, 0.0, 0.0, 0.0});
@@ -83,6 +83,8 @@ static void record_zeros(double drift)
             run[r].i_A[k] = (r == 3 ? drift : 1.0) * ZERO_A[k % 3] + READ_A * ref_normal(&seed);
         for (size_t k = 0; k < 12 * N && r == 4; ++k)
             run[r].i_A[k] += ZERO_A[k % 3];
+        for (size_t k = 0; k < 4 * N && torque_noise_Nm > 0.0; ++k)
+            run[r].torque_Nm[k] += torque_noise_Nm * ref_normal(&seed);
     }
     search_start();
 }
@@ -98,7 +100,7 @@ static void test_zeros_are_left_and_taken(void)
     const hci_effects known = {&offset, 1};
     for (size_t s = 0; s < 3; ++s)
         term[s] = (hci_effect_term){s, 0.0, ZERO_A[s], NAN};
-    record_zeros(1.1);
+    record_zeros(1.1, 0.0);
     const double left = 20.0 * sqrt((3.0 + 1.0) / 4.0 / 3.0);
     TEST_ASSERT_DOUBLE_WITHIN(0.02 * left, left, hci_current_zeros_rms(&dataset.regression, &none));
     const double drift = 20.0 * (0.1 / 1.1) * sqrt(1.0 / 12.0);
@@ -112,7 +114,7 @@ static void test_zeros_are_left_and_taken(void)
 static void test_zeros_of_two_sensors(void)
 {
     static const hci_effects none = {NULL, 0};
-    record_zeros(1.0);
+    record_zeros(1.0, 0.0);
     const hci_segment *s = hci_segment_next(&dataset.samples, 0, NULL);
     TEST_ASSERT_EQUAL_UINT64(3, hci_current_zeros_left(&dataset.regression, &none, s).count);
     dataset.samples.sample[s->first].reading.computed_phase = 2;
@@ -122,21 +124,29 @@ static void test_zeros_of_two_sensors(void)
     TEST_ASSERT_EQUAL_UINT64(2, left.phase[1]);
 }
 
-/* The zeros alone find the offsets: without torque that these readings would make. */
-static void test_a_fit_finds_the_zeros(void)
+static void expect_offsets(void)
 {
-    record_zeros(1.0);
+    static const char *const PHASE[3] = {"a", "b", "c"};
     for (int s = 0; s < 3; ++s)
-        model_add("current_offset", s == 0 ? "a" : s == 1 ? "b" : "c", NULL, 0.0);
+        model_add("current_offset", PHASE[s], NULL, 0.0);
     model_fit();
     for (int s = 0; s < 3; ++s)
         TEST_ASSERT_DOUBLE_WITHIN(0.02, ZERO_A[s],
-                                  term_in(&model.candidates, "current_offset",
-                                          s == 0   ? "a"
-                                          : s == 1 ? "b"
-                                                   : "c",
-                                          0.0)
-                                      ->value);
+                                  term_in(&model.candidates, "current_offset", PHASE[s], 0.0)->value);
+}
+
+/* The torque is without what these readings would make. */
+static void test_a_fit_finds_the_zeros(void)
+{
+    record_zeros(1.0, 0.0);
+    expect_offsets();
+}
+
+/* A torque with noise of 30 N·m tells an offset to 30/(0.2 √(10 N)) = 2 A: what finds them are the zeros. */
+static void test_the_zeros_alone_find_the_offsets(void)
+{
+    record_zeros(1.0, 30.0);
+    expect_offsets();
 }
 
 int main(void)
@@ -148,5 +158,6 @@ int main(void)
     RUN_TEST(test_zeros_are_left_and_taken);
     RUN_TEST(test_zeros_of_two_sensors);
     RUN_TEST(test_a_fit_finds_the_zeros);
+    RUN_TEST(test_the_zeros_alone_find_the_offsets);
     return UNITY_END();
 }

@@ -104,6 +104,34 @@ static void test_a_declared_lag_acts_everywhere(void)
         TEST_ASSERT_DOUBLE_WITHIN(0.05 * SINE_NM, 0.0, search.residual_Nm[k]); /* without it: 0.4 */
 }
 
+/* One turn and a half, whose samples are one step and a half apart, then half a step: what the sensor read
+ * before is the turn that follows, at its own time. */
+static void test_uneven_samples_have_settled(void)
+{
+    const hci_effect_type *type = hci_effect_type_find("torque_sensor");
+    hci_effect_term tau = {parameter_of(type, "time_constant"), 0.0, 4e-3, NAN};
+    const hci_effect sensor = {type, &tau, 1};
+    const hci_effects declared = {&sensor, 1};
+    const answer x = answer_of(tau.value, 0.0, 0.05);
+    hci_run *r = add_run(600);
+    for (size_t k = 0; k < r->count; ++k) {
+        const double turned = 2.0 * REF_PI * ((double)k + (k % 2 ? 0.5 : 0.0)) / 400.3;
+        r->theta_m_rad[k] = turned;
+        r->time_s[k] = turned / SPEED;
+        r->speed_rad_per_s[k] = SPEED;
+        rec_phases(0.0, 0.0, P * turned, r->i_A + 3 * k);
+        r->torque_Nm[k] = SINE_NM * x.gain * sin(ORDER * P * turned - x.phase_rad);
+    }
+    search_start();
+    dataset.regression.declared = &declared;
+    model_add("cogging", "sine", "cosine", ORDER);
+    model.candidates.candidate[0].term[0].value = SINE_NM;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_residual(&search, &model.candidates, &note));
+    TEST_ASSERT_EQUAL_UINT64(0, dataset.samples.segment[0].turns);
+    for (size_t k = 0; k < dataset.samples.count; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(0.01 * SINE_NM, 0.0, search.residual_Nm[k]);
+}
+
 /* Sixteen time constants, of each stage; without any there is nothing to wait for, and without damping no
  * end. */
 static void test_how_long_it_takes(void)
@@ -147,6 +175,7 @@ int main(void)
     RUN_TEST(test_samples_of_that_time);
     RUN_TEST(test_it_has_settled);
     RUN_TEST(test_a_declared_lag_acts_everywhere);
+    RUN_TEST(test_uneven_samples_have_settled);
     RUN_TEST(test_how_long_it_takes);
     return UNITY_END();
 }

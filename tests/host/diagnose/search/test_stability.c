@@ -119,6 +119,36 @@ static void test_what_others_do_not_tell_is_not_missed(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.0, share);
 }
 
+/* Without a current no run shows anything of a back-EMF: nothing is taken, and nothing is missed. */
+static void test_what_explains_nothing_misses_nothing(void)
+{
+    double share = 1.0;
+    for (size_t k = 0; k < RUNS; ++k)
+        record(SAMPLES, &(point){60.0 + 10.0 * (double)k, 0.0, 0.0, 0.0, 0.0});
+    search_start();
+    model_add("back_emf", "sine", NULL, 1.0);
+    model_fit();
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_unpredicted(&search, &model.candidates, &share, &note));
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, share);
+}
+
+/* A torque per ampere of five small currents that one large current contradicts: they would be better off
+ * without the effect, of which nothing is taken then. */
+static void test_what_makes_others_worse_takes_nothing(void)
+{
+    double share = 1.0;
+    for (size_t k = 0; k < RUNS; ++k) {
+        const double iq_A = k == 2 ? 20.0 : 0.1, less = k == 2 ? 0.1 : -1.0;
+        record(SAMPLES, &(point){60.0 + 10.0 * (double)k, iq_A, 0.0, less * 1.5 * K_NM_PER_A * iq_A, 0.0});
+    }
+    search_start();
+    model_add("back_emf", "sine", NULL, 1.0);
+    model_fit();
+    model_fit();
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_unpredicted(&search, &model.candidates, &share, &note));
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, share);
+}
+
 static void test_stays_are_counted(void)
 {
     hci_attribution a;
@@ -146,6 +176,8 @@ int main(void)
     RUN_TEST(test_what_one_part_asks_for_leaves);
     RUN_TEST(test_misfit_of_runs_left_out);
     RUN_TEST(test_what_others_do_not_tell_is_not_missed);
+    RUN_TEST(test_what_explains_nothing_misses_nothing);
+    RUN_TEST(test_what_makes_others_worse_takes_nothing);
     RUN_TEST(test_stays_are_counted);
     return UNITY_END();
 }
