@@ -347,10 +347,11 @@ static hci_status judge(const hci_machine_data *machine, hci_dataset *b, const h
     const hci_run_statistics *y = &b->samples.statistics[o.run];
     if (!is_loaded_as_others(&r, y)) return HCI_OK;
     hci_odd_run found = {.file = e->file, .rms_Nm = e->rms_before_Nm, .others_Nm = o.others_Nm};
-    const hci_status status = mend(&lone, e, &found, note);
     const bool stands_out = o.others_are_noise || e->rms_before_Nm > STANDS_OUT * o.most_others_Nm;
+    const bool told = stands_out && is_told(&r, y);
+    const hci_status status = o.others_are_noise || !told ? mend(&lone, e, &found, note) : HCI_OK;
     const bool slipped = o.others_are_noise ? is_proved(&found, e) : found.slip[0] != '\0';
-    if (status || !(slipped || (stands_out && is_told(&r, y)))) return status;
+    if (status || !(slipped || told)) return status;
     *odd = found;
     *certain = o.others_are_noise;
     return HCI_OK;

@@ -10,8 +10,9 @@
 #include "host/diagnose/fit/dataset.h"
 
 /* Looks for it. certain: all others are at their noise; else the run only stands out, and is to be looked for
- * again with the machine that the others give. odd->file is NULL where there is none; it belongs to runs.
- * HCI_ERROR_INPUT, _MEMORY. O(samples), and of the run that stands out some hundred times its own. */
+ * again with the machine that the others give, and its slip is looked for then. odd->file is NULL where there
+ * is none; it belongs to runs. HCI_ERROR_INPUT, _MEMORY. O(samples), and of the run that stands out some
+ * hundred times its own. */
 hci_status hci_odd_run_find(const hci_machine_data *machine, const hci_effects *effects, const hci_runs *runs,
                             hci_odd_run *odd, bool *certain, hci_note *note);
 
