@@ -19,15 +19,15 @@ static void fill_powers(double x, hci_coenergy_power *power)
 void hci_coenergy_begin(hci_coenergy *w, int pole_pairs, const hci_sample *truth, double unit_A)
 {
     const double theta = pole_pairs * truth->theta_m_rad;
-    const hci_dq i = hci_park(hci_clarke(truth->i_abc), theta);
+    const hci_alpha_beta i = hci_clarke(truth->i_abc);
     const hci_coenergy_monomial none = {-1, -1, 0.0, 0.0, 0.0, 0.0, 0.0};
     w->pole_pairs = pole_pairs;
     w->theta_m_rad = truth->theta_m_rad;
     w->unit_A = unit_A;
     w->sine = sin(theta);
     w->cosine = cos(theta);
-    w->i[0] = i.d / unit_A;
-    w->i[1] = i.q / unit_A;
+    w->i[0] = (-i.alpha * w->cosine - i.beta * w->sine) / unit_A; /* as hci_park */
+    w->i[1] = (i.alpha * w->sine - i.beta * w->cosine) / unit_A;
     fill_powers(w->i[0], w->d);
     fill_powers(w->i[1], w->q);
     w->turning = (hci_turning)HCI_TURNING;

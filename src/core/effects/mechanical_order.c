@@ -16,16 +16,14 @@ static const hci_effect_parameter PARAMETER[] = {
                 HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_CURRENT),
 };
 
-/* A component of the currents as a back-EMF, and its derivative by θ_m. */
+/* A component of the currents as a back-EMF x, and its derivative by θ_m; y: a quarter of a period ahead. */
 typedef struct {
     double by_current[3], slope[3];
 } component;
 
 /* ∂i_q/∂i_s = ⅔ sin(θ − 2πs/3), ∂i_d/∂i_s = −⅔ cos(θ − 2πs/3). */
-static component component_at(int pole_pairs, double theta_m_rad, bool direct)
+static component component_of(int pole_pairs, double x, double y)
 {
-    const double s = 2.0 / 3.0 * sin(pole_pairs * theta_m_rad), c = 2.0 / 3.0 * cos(pole_pairs * theta_m_rad);
-    const double x = direct ? -c : s, y = direct ? s : c;
     component to = {{0.0}, {0.0}};
     hci_phases_add(x, y, 1, to.by_current);
     hci_phases_add(pole_pairs * y, -pole_pairs * x, 1, to.slope);
@@ -47,8 +45,10 @@ static void torque_of_all(const hci_effect *effect, const hci_machine *machine, 
                           hci_effect_torque *sum, double *by_value)
 {
     hci_turning turn = HCI_TURNING;
-    const component q = component_at(machine->pole_pairs, truth->theta_m_rad, false);
-    const component d = component_at(machine->pole_pairs, truth->theta_m_rad, true);
+    const double theta_rad = machine->pole_pairs * truth->theta_m_rad;
+    const double s = 2.0 / 3.0 * sin(theta_rad), c = 2.0 / 3.0 * cos(theta_rad);
+    const component q = component_of(machine->pole_pairs, s, c);
+    const component d = component_of(machine->pole_pairs, -c, s);
     for (size_t k = 0; k < effect->count; ++k) {
         const hci_effect_term *term = &effect->term[k];
         hci_effect_turn_to(&turn, term->order, machine->pole_pairs, truth->theta_m_rad);

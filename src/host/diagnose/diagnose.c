@@ -26,6 +26,7 @@
 #define RESOLUTION 5e-4 /* of the largest rms torque */
 #define REPEATED   0.1  /* of the square of what is left beside noise, that may differ from turn to turn */
 #define DROWNED    0.25 /* of the torque of interest: noise beside which nothing is complete */
+#define SUSPICION  0.5  /* of the limit of work, that a search without a run may take that is suspected */
 #define AGAINST    0.05 /* of the torque per ampere, that voltages which agree to 2 % exclude */
 
 const char *hci_finding_verdict_name(hci_finding_verdict verdict)
@@ -391,9 +392,26 @@ static void loose_swings_judge(hci_diagnosis *d)
     hci_uncertainty_release(&d->uncertainty);
 }
 
-static hci_status diagnose(hci_dataset *b, const hci_machine_data *machine, const hci_runs *runs,
-                           const hci_diagnose_options *options, hci_diagnosis *d, hci_note *note)
+/* What is to be diagnosed. */
+typedef struct {
+    const hci_machine_data *machine;
+    const hci_effects *declared;
+    const hci_runs *runs;
+    const hci_diagnose_options *options;
+    hci_suspect *suspect; /* that is not among the runs, and is tried on what they show; NULL: none */
+    double work;          /* of what the search may take, that counts as done before it begins */
+} task;
+
+static hci_status look_at(void *context, const hci_effects *effects, hci_note *note)
 {
+    return hci_suspect_ask(context, effects, note);
+}
+
+static hci_status diagnose(hci_dataset *b, const task *t, hci_diagnosis *d, hci_note *note)
+{
+    const hci_machine_data *machine = t->machine;
+    const hci_runs *runs = t->runs;
+    const hci_diagnose_options *options = t->options;
     const double resolution = options->resolution > 0.0 ? options->resolution : RESOLUTION;
     const hci_attribute_options how = {runs->run,
                                        resolution * hci_dataset_range_of(b).torque_Nm,
@@ -405,7 +423,9 @@ static hci_status diagnose(hci_dataset *b, const hci_machine_data *machine, cons
                                        options->stop,
                                        options->stop_context,
                                        options->slip,
-                                       options->slip_context};
+                                       options->slip_context,
+                                       t->suspect ? look_at : NULL,
+                                       t->suspect};
     hci_watch watch = {options->stop, options->stop_context, options->progress, options->progress_context,
                        false};
     hci_attribution a;
@@ -473,14 +493,13 @@ static hci_status nothing_measured(const hci_effects *declared, hci_diagnosis *d
     return HCI_NOT_REACHED;
 }
 
-static hci_status diagnose_from(const hci_machine_data *machine, const hci_effects *declared,
-                                const hci_runs *runs, const hci_diagnose_options *options,
-                                hci_diagnosis *diagnosis, hci_note *note)
+static hci_status diagnose_from(const task *t, hci_diagnosis *diagnosis, hci_note *note)
 {
     hci_dataset b;
-    hci_status status = hci_dataset_make(machine, declared, runs, &b, note);
+    hci_status status = hci_dataset_make(t->machine, t->declared, t->runs, &b, note);
     if (status) return status;
-    status = diagnose(&b, machine, runs, options, diagnosis, note);
+    b.work += t->work;
+    status = diagnose(&b, t, diagnosis, note);
     hci_dataset_release(&b);
     if (status) hci_diagnosis_release(diagnosis);
     return status;
@@ -495,34 +514,31 @@ static hci_status tell(const hci_free_friction *friction, const hci_runs *runs, 
 }
 
 /* Of the runs that tell a torque; friction of free shafts comes first. */
-static hci_status diagnose_measured(const hci_machine_data *machine, const hci_effects *declared,
-                                    const hci_runs *runs, const hci_diagnose_options *options,
-                                    hci_diagnosis *diagnosis, hci_note *note)
+static hci_status diagnose_measured(const task *t, hci_diagnosis *diagnosis, hci_note *note)
 {
     hci_free_friction friction = {0};
-    hci_status status = hci_free_friction_find(machine, declared, runs, &friction, note);
-    if (!status)
-        status = diagnose_from(machine, friction.law.terms > 0 ? &friction.effects.list : declared,
-                               &friction.rest, options, diagnosis, note);
-    if (!status) status = tell(&friction, runs, diagnosis, note);
+    task rest = *t;
+    hci_status status = hci_free_friction_find(t->machine, t->declared, t->runs, &friction, note);
+    if (friction.law.terms > 0) rest.declared = &friction.effects.list;
+    rest.runs = &friction.rest;
+    if (!status) status = diagnose_from(&rest, diagnosis, note);
+    if (!status) status = tell(&friction, t->runs, diagnosis, note);
     hci_free_friction_release(&friction);
-    if (!status && hci_constant_is_held(runs))
-        diagnosis->held_constant_Nm_per_A = hci_torque_constant(&machine->model, declared);
+    if (!status && hci_constant_is_held(t->runs))
+        diagnosis->held_constant_Nm_per_A = hci_torque_constant(&t->machine->model, t->declared);
     return status;
 }
 
 /* All but what a run that disagrees with the others says. */
-static hci_status diagnose_all(const hci_machine_data *machine, const hci_effects *declared,
-                               const hci_runs *runs, const hci_diagnose_options *options,
-                               hci_diagnosis *diagnosis, hci_note *note)
+static hci_status diagnose_all(const task *t, hci_diagnosis *diagnosis, hci_note *note)
 {
     bool usable = false;
-    for (size_t k = 0; k < runs->count; ++k)
-        usable = usable || is_usable(runs, k);
-    const hci_status status = usable ? diagnose_measured(machine, declared, runs, options, diagnosis, note)
-                                     : nothing_measured(declared, diagnosis, note);
+    for (size_t k = 0; k < t->runs->count; ++k)
+        usable = usable || is_usable(t->runs, k);
+    const hci_status status =
+        usable ? diagnose_measured(t, diagnosis, note) : nothing_measured(t->declared, diagnosis, note);
     if (status > HCI_NOT_REACHED) return status;
-    diagnosis->open_voltage_off = hci_open_voltage_off(&machine->model, runs);
+    diagnosis->open_voltage_off = hci_open_voltage_off(&t->machine->model, t->runs);
     if (diagnosis->open_voltage_off > HCI_OPEN_VOLTAGE_OFF && diagnosis->verdict == HCI_DIAGNOSIS_COMPLETE)
         diagnosis->verdict = HCI_DIAGNOSIS_UNKNOWN;
     return HCI_OK;
@@ -549,30 +565,31 @@ static hci_status take_out(const hci_runs *runs, const char *file, hci_runs *res
 }
 
 /* Whether the others are understood, and this run is the one that disagrees with them then too. */
-static hci_status confirm(const hci_machine_data *machine, const hci_runs *runs, const hci_diagnosis *d,
-                          hci_odd_run *odd, bool *certain, hci_note *note)
+static hci_status confirm(const task *t, const hci_diagnosis *d, hci_odd_run *odd, bool *certain,
+                          hci_note *note)
 {
     hci_odd_run again;
     bool settled = false;
     hci_status status = HCI_OK;
     if (*certain) return HCI_OK;
     if (d->search == HCI_WORK_COMPLETE && d->verdict <= HCI_DIAGNOSIS_AMBIGUOUS)
-        status = hci_odd_run_find(machine, &d->effects.list, runs, &again, &settled, note);
+        status = hci_odd_run_find(t->machine, &d->effects.list, t->runs, &again, &settled, note);
     *certain = settled && again.file == odd->file;
     if (*certain) *odd = again;
     return status;
 }
 
 /* Of the others, where one disagrees; *certain: it does. */
-static hci_status diagnose_others(const hci_machine_data *machine, const hci_effects *declared,
-                                  const hci_runs *runs, const hci_diagnose_options *options, hci_odd_run *odd,
-                                  bool *certain, hci_diagnosis *d, hci_note *note)
+static hci_status diagnose_others(const task *t, hci_odd_run *odd, bool *certain, hci_diagnosis *d,
+                                  hci_note *note)
 {
     hci_runs rest;
     size_t index = 0;
-    hci_status status = take_out(runs, odd->file, &rest, &index, note);
-    if (!status) status = diagnose_all(machine, declared, &rest, options, d, note);
-    if (!status) status = confirm(machine, runs, d, odd, certain, note);
+    task others = *t;
+    others.runs = &rest;
+    hci_status status = take_out(t->runs, odd->file, &rest, &index, note);
+    if (!status) status = diagnose_all(&others, d, note);
+    if (!status) status = confirm(t, d, odd, certain, note);
     if (!status && *certain) d->odd = *odd;
     for (size_t k = 0; !status && k < d->lines; ++k)
         d->line[k].run += d->line[k].run >= index;
@@ -582,16 +599,30 @@ static hci_status diagnose_others(const hci_machine_data *machine, const hci_eff
     return status;
 }
 
-static hci_status diagnose_runs(const hci_machine_data *machine, const hci_effects *declared,
-                                const hci_runs *runs, const hci_diagnose_options *options, hci_diagnosis *d,
+/* Where a run is only suspected: as soon as what the others show makes it agree, no more is asked of them. */
+static hci_status suspicion_try(const task *t, hci_odd_run *odd, bool *certain, hci_diagnosis *d,
                                 hci_note *note)
+{
+    hci_suspect suspect;
+    task others = *t;
+    hci_status status = hci_suspect_make(t->machine, t->declared, t->runs, odd->file, &suspect, note);
+    if (status) return status;
+    others.suspect = &suspect;
+    others.work = (1.0 - SUSPICION) * HCI_MOST_WORK;
+    status = diagnose_others(&others, odd, certain, d, note);
+    hci_suspect_release(&suspect);
+    return status == HCI_ERROR_STOPPED ? HCI_OK : status;
+}
+
+/* Of all runs, or of all but one that disagrees. */
+static hci_status diagnose_runs(const task *t, hci_diagnosis *d, hci_note *note)
 {
     hci_odd_run odd;
     bool certain = false;
-    hci_status status = hci_odd_run_find(machine, declared, runs, &odd, &certain, note);
-    if (!status && odd.file)
-        status = diagnose_others(machine, declared, runs, options, &odd, &certain, d, note);
-    return status || certain ? status : diagnose_all(machine, declared, runs, options, d, note);
+    hci_status status = hci_odd_run_find(t->machine, t->declared, t->runs, &odd, &certain, note);
+    if (!status && odd.file && certain) return diagnose_others(t, &odd, &certain, d, note);
+    if (!status && odd.file) status = suspicion_try(t, &odd, &certain, d, note);
+    return status || certain ? status : diagnose_all(t, d, note);
 }
 
 hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *declared, const hci_runs *runs,
@@ -603,7 +634,8 @@ hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *decl
         fitted += runs->role[k] == HCI_ROLE_FIT;
     if (fitted == 0)
         return hci_note_set(note, HCI_ERROR_INPUT, "no run has the role `fit`; give it to at least one");
-    const hci_status status = diagnose_runs(machine, declared, runs, options, diagnosis, note);
+    const task all = {machine, declared, runs, options, NULL, 0.0};
+    const hci_status status = diagnose_runs(&all, diagnosis, note);
     if (status) return status;
     origin_fill(diagnosis);
     return diagnosis->verdict >= HCI_DIAGNOSIS_AMBIGUOUS || diagnosis->search != HCI_WORK_COMPLETE ||

@@ -49,11 +49,12 @@ static const slip SLIPS[] = {
 
 /* ---- errors ---- */
 
-/* The errors of all runs of a list with effects as they are, in d->run; to be freed. */
-static hci_status errors_find(hci_dataset *b, const hci_runs *runs, hci_diagnosis *d, hci_note *note)
+/* The errors of all runs of a list before and after effects, in d->run; to be freed. */
+static hci_status errors_find(hci_dataset *b, const hci_runs *runs, const hci_effects *effects,
+                              hci_diagnosis *d, hci_note *note)
 {
     memset(d, 0, sizeof *d);
-    d->effects.list = *b->regression.declared;
+    d->effects.list = *effects;
     const hci_status status = hci_run_errors_fill(b, runs, 0, d, note);
     hci_memory_free(d->line);
     d->line = NULL;
@@ -75,7 +76,7 @@ static hci_status lone_errors(const lone_run *l, hci_dataset *b, hci_run_errors 
     hci_role role = l->role;
     const hci_runs one = {.run = &run, .role = &role, .count = 1};
     hci_diagnosis d;
-    const hci_status status = errors_find(b, &one, &d, note);
+    const hci_status status = errors_find(b, &one, b->regression.declared, &d, note);
     *e = (hci_run_errors){.rms_before_Nm = NAN, .noise_floor_Nm = NAN};
     if (!status && d.runs == 1) *e = d.run[0];
     hci_memory_free(d.run);
@@ -346,10 +347,11 @@ static hci_status judge(const hci_machine_data *machine, hci_dataset *b, const h
     const hci_run_statistics *y = &b->samples.statistics[o.run];
     if (!is_loaded_as_others(&r, y)) return HCI_OK;
     hci_odd_run found = {.file = e->file, .rms_Nm = e->rms_before_Nm, .others_Nm = o.others_Nm};
-    const hci_status status = mend(&lone, e, &found, note);
     const bool stands_out = o.others_are_noise || e->rms_before_Nm > STANDS_OUT * o.most_others_Nm;
+    const bool told = stands_out && is_told(&r, y);
+    const hci_status status = o.others_are_noise || !told ? mend(&lone, e, &found, note) : HCI_OK;
     const bool slipped = o.others_are_noise ? is_proved(&found, e) : found.slip[0] != '\0';
-    if (status || !(slipped || (stands_out && is_told(&r, y)))) return status;
+    if (status || !(slipped || told)) return status;
     *odd = found;
     *certain = o.others_are_noise;
     return HCI_OK;
@@ -374,9 +376,39 @@ hci_status hci_odd_run_find(const hci_machine_data *machine, const hci_effects *
     if (!is_enough(runs)) return HCI_OK;
     hci_status status = hci_dataset_make(machine, effects, runs, &b, note);
     if (status) return status;
-    status = errors_find(&b, runs, &d, note);
+    status = errors_find(&b, runs, effects, &d, note);
     if (!status && d.runs > LEAST_OTHERS) status = judge(machine, &b, runs, &d, odd, certain, note);
     hci_memory_free(d.run);
     hci_dataset_release(&b);
     return status;
+}
+
+/* ---- whether a suspicion still stands ---- */
+
+hci_status hci_suspect_make(const hci_machine_data *machine, const hci_effects *effects, const hci_runs *runs,
+                            const char *file, hci_suspect *s, hci_note *note)
+{
+    size_t k = 0;
+    memset(s, 0, sizeof *s);
+    while (runs->run[k].name != file)
+        ++k;
+    s->run = runs->run[k];
+    s->role = runs->role[k];
+    const hci_runs one = {.run = &s->run, .role = &s->role, .count = 1};
+    return hci_dataset_make(machine, effects, &one, &s->dataset, note);
+}
+
+hci_status hci_suspect_ask(hci_suspect *s, const hci_effects *effects, hci_note *note)
+{
+    const hci_runs one = {.run = &s->run, .role = &s->role, .count = 1};
+    hci_diagnosis d;
+    const hci_status status = errors_find(&s->dataset, &one, effects, &d, note);
+    const bool cleared = !status && d.runs == 1 && d.run[0].rms_after_Nm <= FAR * d.run[0].noise_floor_Nm;
+    hci_memory_free(d.run);
+    return cleared ? HCI_ERROR_STOPPED : status;
+}
+
+void hci_suspect_release(hci_suspect *s)
+{
+    hci_dataset_release(&s->dataset);
 }

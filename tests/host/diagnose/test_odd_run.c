@@ -1,6 +1,9 @@
 /* One recording that disagrees with all others is named first and taken out, and the others are answered for;
  * a recording that alone shows something is none. */
+#include "host/diagnose/odd_run.h"
 #include "support/diagnosing.h"
+
+static const hci_effects none = {NULL, 0};
 
 enum { SAMPLES = 450, RUNS = 8, ODD = 5 };
 
@@ -204,10 +207,34 @@ static void test_recordings_that_agree(void)
     TEST_ASSERT_NULL(diagnosis.odd.file);
 }
 
+/* What the effects of the others make of it. */
+static hci_status ask(size_t k, const hci_effects *effects)
+{
+    hci_suspect suspect;
+    hci_note note = {{0}};
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_suspect_make(&machine, &none, &runs, run[k].name, &suspect, &note));
+    const hci_status status = hci_suspect_ask(&suspect, effects, &note);
+    hci_suspect_release(&suspect);
+    return status;
+}
+
+static void test_a_suspicion_falls_once_the_others_explain_it(void)
+{
+    const hci_effect_type *type = hci_effect_type_find("friction");
+    hci_effect_term coulomb = {0, 0.0, 0.05, NAN};
+    const hci_effect friction = {type, &coulomb, 1};
+    const hci_effects brake = {&friction, 1};
+    record_all(0.05);
+    TEST_ASSERT_EQUAL_STRING("coulomb", type->parameter[0].name);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, ask(ODD, &none));
+    TEST_ASSERT_EQUAL_INT(HCI_ERROR_STOPPED, ask(ODD, &brake));
+    swap_b_and_c(&run[ODD]);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, ask(ODD, &brake));
+}
+
 static void test_memory(void)
 {
     hci_status status = HCI_ERROR_MEMORY;
-    const hci_effects none = {NULL, 0};
     record_all(0.0);
     swap_b_and_c(&run[ODD]);
     for (int k = 0; k < 400 && status == HCI_ERROR_MEMORY; k = k < 100 ? k + 1 : k + 7) {
@@ -235,6 +262,7 @@ int main(void)
     RUN_TEST(test_the_only_warm_run_is_not_odd);
     RUN_TEST(test_a_sign_that_no_other_run_tells);
     RUN_TEST(test_recordings_that_agree);
+    RUN_TEST(test_a_suspicion_falls_once_the_others_explain_it);
     RUN_TEST(test_memory);
     return UNITY_END();
 }

@@ -32,10 +32,12 @@ bool hci_is_coarse(const hci_binned_sample *sample, size_t count, double finest_
     return false;
 }
 
-size_t hci_between_count(const hci_sample *from, const hci_sample *to, double finest_order)
+hci_between hci_between_of(const hci_sample *from, const hci_sample *to, int pole_pairs, double finest_order)
 {
     const double parts = ceil(turned(from, to, finest_order) / PART_RAD);
-    return 2 * (size_t)fmin(fmax(parts, 1.0), MOST_PARTS);
+    const size_t count = 2 * (size_t)fmin(fmax(parts, 1.0), MOST_PARTS);
+    return (hci_between){from,       to,   hci_sample_dq(from, pole_pairs), hci_sample_dq(to, pole_pairs),
+                         pole_pairs, count};
 }
 
 static double along(double from, double to, double share)
@@ -43,19 +45,19 @@ static double along(double from, double to, double share)
     return from + share * (to - from);
 }
 
-hci_sample hci_between_at(const hci_sample *from, const hci_sample *to, int pole_pairs, size_t k,
-                          size_t count)
+hci_sample hci_between_at(const hci_between *x, size_t k)
 {
     const double of_part = k % 2 == 0 ? 0.5 - 0.5 / sqrt(3.0) : 0.5 + 0.5 / sqrt(3.0);
-    const double share = 2.0 * ((double)(k / 2) + of_part) / (double)count;
-    const hci_dq a = hci_sample_dq(from, pole_pairs), b = hci_sample_dq(to, pole_pairs);
+    const double share = 2.0 * ((double)(k / 2) + of_part) / (double)x->count;
+    const hci_sample *from = x->from, *to = x->to;
+    const hci_dq a = x->i_from, b = x->i_to;
     const hci_dq i = {along(a.d, b.d, share), along(a.q, b.q, share), along(a.zero, b.zero, share)};
-    hci_sample x = *from;
-    x.theta_m_rad = along(from->theta_m_rad, to->theta_m_rad, share);
-    x.speed_rad_per_s = along(from->speed_rad_per_s, to->speed_rad_per_s, share);
-    x.acceleration_rad_per_s2 = along(from->acceleration_rad_per_s2, to->acceleration_rad_per_s2, share);
-    x.temperature_C = along(from->temperature_C, to->temperature_C, share);
-    x.elapsed_s = along(from->elapsed_s, to->elapsed_s, share);
-    hci_phases_of_dq(i, pole_pairs * x.theta_m_rad, x.i_abc);
-    return x;
+    hci_sample at = *from;
+    at.theta_m_rad = along(from->theta_m_rad, to->theta_m_rad, share);
+    at.speed_rad_per_s = along(from->speed_rad_per_s, to->speed_rad_per_s, share);
+    at.acceleration_rad_per_s2 = along(from->acceleration_rad_per_s2, to->acceleration_rad_per_s2, share);
+    at.temperature_C = along(from->temperature_C, to->temperature_C, share);
+    at.elapsed_s = along(from->elapsed_s, to->elapsed_s, share);
+    hci_phases_of_dq(i, x->pole_pairs * at.theta_m_rad, at.i_abc);
+    return at;
 }

@@ -14,11 +14,17 @@ double hci_finest_order(const hci_machine *machine, const hci_effects *effects);
 /* Whether between two samples of a segment such an order turns by more than a radian. O(samples). */
 bool hci_is_coarse(const hci_binned_sample *sample, size_t count, double finest_order);
 
-/* How many samples between two make the mean from one to the other; at least 2. */
-size_t hci_between_count(const hci_sample *from, const hci_sample *to, double finest_order);
+/* A step from one sample to the next. */
+typedef struct {
+    const hci_sample *from, *to;
+    hci_dq i_from, i_to; /* their currents in the rotor frame */
+    int pole_pairs;
+    size_t count; /* of samples between the two, that make the mean from one to the other; at least 2 */
+} hci_between;
 
-/* Sample k of `count` between two: angle, speed and currents in the rotor frame along straight lines. */
-hci_sample hci_between_at(const hci_sample *from, const hci_sample *to, int pole_pairs, size_t k,
-                          size_t count);
+hci_between hci_between_of(const hci_sample *from, const hci_sample *to, int pole_pairs, double finest_order);
+
+/* Sample k of the count: angle, speed and currents in the rotor frame along straight lines. */
+hci_sample hci_between_at(const hci_between *between, size_t k);
 
 #endif

@@ -225,7 +225,9 @@ static void joined_add(const filling *f, const hci_segment *s)
 static void segment_add(filling *f, const hci_segment *s, hci_predicted_reading *predicted)
 {
     hci_predicted_reading_fill(f->regression, &f->plan.list, s, predicted);
-    hci_regression_count(f->regression, s->count, hci_effects_terms(&f->model->list), f->model->columns);
+    const double n = (double)f->model->columns;
+    hci_regression_count(f->regression, predicted->asked, hci_effects_terms(&f->model->list));
+    hci_regression_count_products(f->regression, 0.5 * n * n * (double)s->count);
     torque_rows(f, s, predicted);
     rows_add(f, s);
     joined_add(f, s);

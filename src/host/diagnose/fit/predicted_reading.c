@@ -415,25 +415,23 @@ static bool is_coarse_slope(const hci_regression *e, const hci_effects *effects,
            hci_is_coarse(e->samples->sample + s->first, s->count, hci_finest_order(e->machine, effects));
 }
 
-/* The mean of the torque from sample k of a segment to the next one. */
-static void step_fill(const hci_regression *e, const hci_effects *effects, const hci_segment *s, size_t k,
-                      hci_predicted_reading *o)
+/* The mean of the torque along step k of a run. */
+static void step_fill(const hci_regression *e, const hci_effects *effects, const hci_run *run,
+                      const hci_between *between, size_t k, hci_predicted_reading *o)
 {
-    const hci_binned_sample *at = e->samples->sample + s->first + k;
-    const hci_sample *from = e->raw ? &at[0].raw : &at[0].reading, *to = e->raw ? &at[1].raw : &at[1].reading;
-    const size_t count = hci_between_count(from, to, hci_finest_order(e->machine, effects));
+    const double count = (double)between->count;
     double *mean = o->by_value ? o->by_value + k * o->terms : NULL, *row = mean ? o->row : NULL;
     o->torque_Nm[k] = 0.0;
     if (o->current_Nm) o->current_Nm[k] = 0.0;
     if (mean) memset(mean, 0, o->terms * sizeof *mean);
-    for (size_t j = 0; j < count; ++j) {
-        const hci_sample x = hci_between_at(from, to, e->machine->pole_pairs, j, count);
-        const place there = {&e->runs[s->run], &x, NULL};
+    for (size_t j = 0; j < between->count; ++j) {
+        const hci_sample x = hci_between_at(between, j);
+        const place there = {run, &x, NULL};
         double current_Nm;
-        o->torque_Nm[k] += torque_at(e, effects, &there, o, row, &current_Nm) / (double)count;
-        if (o->current_Nm) o->current_Nm[k] += current_Nm / (double)count;
+        o->torque_Nm[k] += torque_at(e, effects, &there, o, row, &current_Nm) / count;
+        if (o->current_Nm) o->current_Nm[k] += current_Nm / count;
         for (size_t c = 0; row && c < o->terms; ++c)
-            mean[c] += row[c] / (double)count;
+            mean[c] += row[c] / count;
     }
 }
 
@@ -441,10 +439,17 @@ static void step_fill(const hci_regression *e, const hci_effects *effects, const
 static void steps_fill(const hci_regression *e, const hci_effects *effects, const hci_segment *s,
                        hci_predicted_reading *o)
 {
+    const hci_binned_sample *sample = e->samples->sample + s->first;
+    const double finest_order = hci_finest_order(e->machine, effects);
     for (size_t k = 0; k < s->count; ++k)
-        o->time_s[k] = e->samples->sample[s->first + k].time_s;
-    for (size_t k = 0; k + 1 < s->count; ++k)
-        step_fill(e, effects, s, k, o);
+        o->time_s[k] = sample[k].time_s;
+    for (size_t k = 0; k + 1 < s->count; ++k) {
+        const hci_sample *from = e->raw ? &sample[k].raw : &sample[k].reading;
+        const hci_sample *to = e->raw ? &sample[k + 1].raw : &sample[k + 1].reading;
+        const hci_between between = hci_between_of(from, to, e->machine->pole_pairs, finest_order);
+        o->asked += between.count;
+        step_fill(e, effects, &e->runs[s->run], &between, k, o);
+    }
 }
 
 /* The slopes over a window of the torque and of its derivatives. */
@@ -484,6 +489,7 @@ void hci_predicted_reading_fill(const hci_regression *e, const hci_effects *effe
     const size_t turns = turns_through(e, s), lag = dormant_lag(effects);
     size_t lead = 0;
     const bool of_steps = is_coarse_slope(e, effects, s, o);
+    o->asked = of_steps ? 0 : s->count;
     if (of_steps)
         steps_fill(e, effects, s, o);
     else {
@@ -534,7 +540,7 @@ hci_status hci_regression_residual(const hci_regression *e, const hci_effects *e
     memset(residual_Nm, 0, e->samples->count * sizeof *residual_Nm);
     for (const hci_segment *s = NULL; (s = hci_regression_next(e, s)) != NULL;) {
         hci_predicted_reading_fill(e, effects, s, &predicted);
-        hci_regression_count(e, s->count, predicted.terms, 0);
+        hci_regression_count(e, predicted.asked, predicted.terms);
         const hci_binned_sample *sample = e->samples->sample + s->first;
         residual_fill(sample, s->count, &predicted, residual_Nm + s->first);
         if (hci_regression_mean_is_free(e, s)) take_mean_out(sample, residual_Nm + s->first, s->count);

@@ -48,10 +48,9 @@ hci_status hci_regression_each_run(hci_regression *e,
 #define OF_TERM   250.0
 #define OF_SAMPLE 4000.0
 
-void hci_regression_count(const hci_regression *e, size_t samples, size_t terms, size_t columns)
+void hci_regression_count(const hci_regression *e, size_t samples, size_t terms)
 {
-    const double n = (double)columns;
-    hci_regression_count_products(e, (double)samples * (OF_SAMPLE + OF_TERM * (double)terms + 0.5 * n * n));
+    hci_regression_count_products(e, (double)samples * (OF_SAMPLE + OF_TERM * (double)terms));
 }
 
 void hci_regression_count_products(const hci_regression *e, double products)

@@ -46,9 +46,8 @@ hci_status hci_regression_each_run(hci_regression *regression,
                                    hci_status (*visit)(void *context, size_t run, hci_note *note),
                                    void *context, hci_note *note);
 
-/* Adds the multiplications of predicting so many samples of a model, about. columns: whose products are
- * summed up. */
-void hci_regression_count(const hci_regression *regression, size_t samples, size_t terms, size_t columns);
+/* Adds the multiplications of predicting so many samples of a model, about. */
+void hci_regression_count(const hci_regression *regression, size_t samples, size_t terms);
 
 /* Adds multiplications of anything else. */
 void hci_regression_count_products(const hci_regression *regression, double products);

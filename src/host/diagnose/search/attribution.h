@@ -60,6 +60,9 @@ typedef struct {
     void *stop_context;
     const char *(*slip)(void *context); /* as in hci_diagnose_options; may be NULL */
     void *slip_context;
+    /* At the model of each round: any error ends the search with it; may be NULL. */
+    hci_status (*look)(void *context, const hci_effects *effects, hci_note *note);
+    void *look_context;
 } hci_attribute_options;
 
 #endif

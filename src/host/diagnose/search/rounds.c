@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "host/diagnose/candidates/empirical_term.h"
+#include "host/diagnose/fit/model.h"
 #include "host/diagnose/search/backward.h"
 #include "host/diagnose/search/few_values.h"
 #include "host/diagnose/search/forward.h"
@@ -38,6 +39,18 @@ static double share_before(int round)
     return HCI_ROUNDS_SHARE * pow(1.0 - pow(0.85, round), 1.5);
 }
 
+/* Shows what has been found so far. */
+static hci_status model_show(hci_search *s, const hci_candidates *candidates, hci_note *note)
+{
+    hci_model model;
+    if (!s->options->look) return HCI_OK;
+    hci_status status = hci_model_make(s->regression->declared, candidates, false, &model, note);
+    if (status) return status;
+    status = s->options->look(s->options->look_context, &model.list, note);
+    hci_model_release(&model);
+    return status;
+}
+
 static hci_status rounds_run(hci_search *s, hci_fitted_model *model, hci_note *note)
 {
     hci_status status = HCI_OK;
@@ -45,6 +58,7 @@ static hci_status rounds_run(hci_search *s, hci_fitted_model *model, hci_note *n
     for (int round = 0; again && !status && round < MOST_ROUNDS && !hci_search_is_over(s); ++round) {
         hci_search_begin(s, "looking for effects", share_before(round), share_before(round + 1));
         status = round_run(s, model, &again, note);
+        if (!status && again) status = model_show(s, &model->candidates, note);
     }
     return status;
 }

@@ -101,6 +101,26 @@ static void test_faster_than_sampled(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-4, 0.0, hci_search_residual_rms(&search));
 }
 
+/* Of a model that is asked between samples too, each place is work. */
+static void test_work_of_a_coast(void)
+{
+    const hci_harmonic cogging = {.order = 12.0, .cosine = 0.01, .sine = 0.0};
+    const hci_regression *e = &dataset.regression;
+    record_coast(cogging.cosine);
+    search_start();
+    dataset.work = 0.0;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_regression_residual(e, e->declared, search.residual_Nm, &note));
+    const double at_samples = dataset.work;
+    machine.model.cogging = &cogging;
+    machine.model.cogging_count = 1;
+    const hci_status status = hci_regression_residual(e, e->declared, search.residual_Nm, &note);
+    machine.model.cogging = NULL;
+    machine.model.cogging_count = 0;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, status);
+    TEST_ASSERT_TRUE(at_samples > 0.0);
+    TEST_ASSERT_TRUE(dataset.work - at_samples > 2.0 * at_samples);
+}
+
 /* Samples that tell no torque have no residual, and the noise is that of the others. */
 static void test_samples_that_tell_nothing(void)
 {
@@ -124,6 +144,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_averaged_over_the_same_window);
     RUN_TEST(test_faster_than_sampled);
+    RUN_TEST(test_work_of_a_coast);
     RUN_TEST(test_samples_that_tell_nothing);
     return UNITY_END();
 }
