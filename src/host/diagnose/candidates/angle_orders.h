@@ -5,8 +5,9 @@
  *
  *     Δχ²(k) = 2 |Σ w r g exp(jkθ_m)|² / Σ w g²,     w = 1/σ²,  g = ∂T/∂θ_m
  *
- * where one order of torque stands on both sides of all orders of g at once. Out: those k that stand out, the
- * strongest first. */
+ * where one order of torque stands on both sides of all orders of g at once. Out: those k that stand out, and
+ * where the torque with the currents and the cogging torque do not ask for two different δ; the strongest
+ * first. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_CANDIDATES_ANGLE_ORDERS_H
 #define HCI_SRC_HOST_DIAGNOSE_CANDIDATES_ANGLE_ORDERS_H
 
