@@ -87,6 +87,12 @@ static void test_errors_between_lines(void)
     TEST_ASSERT_TRUE(found.count >= 2);
     TEST_ASSERT_EQUAL_DOUBLE(20.0 / P, found.order[0]);
     TEST_ASSERT_EQUAL_DOUBLE(40.0 / P, found.order[1]);
+    for (size_t r = 1; r < RUNS; ++r)
+        use[r] = false;
+    find(); /* with cogging torque alone */
+    TEST_ASSERT_TRUE(found.count >= 2);
+    TEST_ASSERT_EQUAL_DOUBLE(20.0 / P, found.order[0]);
+    TEST_ASSERT_EQUAL_DOUBLE(40.0 / P, found.order[1]);
 }
 
 static void test_noise_is_no_error(void)
