@@ -88,10 +88,19 @@ static void segment_add(const hci_candidates_source *s, const hci_segment *segme
         slopes_at(s->machine, x, slope);
         const double weighted[KINDS] = {w * slope[LOAD] * residual_Nm, w * slope[TEETH] * residual_Nm};
         waves_add(sum, x->theta_m_rad, weighted);
-        spectrum_add(sum, x->theta_m_rad, w * pow(slope[LOAD] + slope[TEETH], 2.0));
         for (int kind = 0; kind < KINDS; ++kind)
             sum->square[kind] += w * slope[kind] * slope[kind];
         sum->cross += w * slope[LOAD] * slope[TEETH];
+    }
+}
+
+static void segment_spectrum_add(const hci_candidates_source *s, const hci_segment *segment, sums *sum)
+{
+    for (size_t j = segment->first; j < segment->first + segment->count; ++j) {
+        double slope[KINDS];
+        slopes_at(s->machine, &s->samples->sample[j].reading, slope);
+        spectrum_add(sum, s->samples->sample[j].reading.theta_m_rad,
+                     pow(slope[LOAD] + slope[TEETH], 2.0) / s->variance[j]);
     }
 }
 
@@ -114,18 +123,22 @@ static double strength_of_two(const sums *sum, const double *load, const double 
 /* What one error explains of what is left. */
 static double strength(const sums *sum, size_t k)
 {
-    return fall_of(sum->left[2 * k], sum->left[2 * k + 1], sum->spectrum[0]);
+    const double square = sum->square[LOAD] + sum->square[TEETH] + 2.0 * sum->cross;
+    return fall_of(sum->left[2 * k], sum->left[2 * k + 1], square);
 }
 
-/* Whether the two torques do not ask for different errors. */
-static void open_find(sums *sum)
+/* Those of which the two torques do not ask for different errors. Whether one of them stands out. */
+static bool open_find(sums *sum)
 {
+    bool any = false;
     for (size_t k = 0; k < sum->count; ++k) {
         const double *load = sum->wave + 2 * KINDS * k, *teeth = load + 2;
         sum->left[2 * k] = load[0] + teeth[0];
         sum->left[2 * k + 1] = load[1] + teeth[1];
         sum->open[k] = strength(sum, k) > AGREES * strength_of_two(sum, load, teeth);
+        any = any || (sum->open[k] && strength(sum, k) > STANDS_OUT);
     }
+    return any;
 }
 
 /* Takes what one error explains out of all waves: it has orders of its own on both sides of all orders of g,
@@ -172,17 +185,25 @@ static bool sums_make(sums *sum)
     return true;
 }
 
+static void segments_add(const hci_candidates_source *s, sums *sum,
+                         void (*add)(const hci_candidates_source *s, const hci_segment *x, sums *sum))
+{
+    for (size_t k = 0; k < s->samples->segment_count; ++k)
+        if (shows(s, s->samples->segment[k].run)) add(s, &s->samples->segment[k], sum);
+}
+
 bool hci_angle_orders_find(const hci_candidates_source *s, size_t stride, double resolved,
                            hci_angle_orders *x)
 {
     const double most = fmin(MOST_PERIODS, resolved * s->machine->pole_pairs);
     sums sum = {.stride = stride, .count = isfinite(resolved) ? (size_t)(most / (double)stride) : 0};
     const bool made = sums_make(&sum);
-    for (size_t k = 0; k < s->samples->segment_count && made; ++k)
-        if (shows(s, s->samples->segment[k].run)) segment_add(s, &s->samples->segment[k], &sum);
-    if (made) open_find(&sum);
     x->count = 0;
-    if (made) strongest(&sum, s->machine->pole_pairs, x);
+    if (made) segments_add(s, &sum, segment_add);
+    if (made && open_find(&sum)) {
+        segments_add(s, &sum, segment_spectrum_add);
+        strongest(&sum, s->machine->pole_pairs, x);
+    }
     hci_memory_free(sum.wave);
     hci_memory_free(sum.open);
     return made;
