@@ -190,7 +190,8 @@ static void leave_bound_out(hci_expected_ripple *e)
     if (e->state != HCI_RIPPLE_KNOWN) return;
     e->state = HCI_RIPPLE_UNTOLD;
     e->peak_to_peak_Nm = e->T_ripple_percent = e->middle_percent = e->error_peak_to_peak_Nm = NAN;
-    e->worst_order = e->worst_order_Nm = e->outside_share = e->outside_A = NAN;
+    e->worst_order = e->worst_order_Nm = e->mean_Nm = e->mean_error_Nm = e->outside_share = e->outside_A =
+        NAN;
     e->recordings = 0;
 }
 

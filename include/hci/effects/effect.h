@@ -183,8 +183,11 @@ typedef struct {
     const double *flux_order; /* fractions at which cogging and torque with the currents vary alike over the
                                * turn, as the declared ones do with the flux; the strongest first */
     size_t flux_orders;       /* entries of flux_order */
-    bool poles_differ; /* orders 3, 9, 15 … stand out with the current: north and south poles differ */
-    bool one_gain;     /* torque with the currents and cogging are off by the same factor */
+    const double
+        *angle_order;    /* electrical orders at which the angle may be read wrong, the strongest first */
+    size_t angle_orders; /* entries of angle_order */
+    bool poles_differ;   /* orders 3, 9, 15 … stand out with the current: north and south poles differ */
+    bool one_gain;       /* torque with the currents and cogging are off by the same factor */
     const hci_effect_speed_mean *of_speed; /* measured torques by the speed, each direction by itself */
     size_t of_speeds;                      /* entries of of_speed */
 } hci_effect_survey;

@@ -54,12 +54,28 @@ static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *senso
 
 #define EXPECTED_RAD 0.05
 
-/* With one pole pair orders 1 and 2 are those of position_eccentricity. */
+static const double OF_RESOLVER[] = {1.0, 2.0, 4.0};
+enum { RESOLVER_ORDERS = sizeof OF_RESOLVER / sizeof *OF_RESOLVER, ECCENTRIC_MOST = 2 };
+
+/* Whether an order is one of a resolver's, or once or twice a turn, which position_eccentricity is. */
+static bool is_named(double order, int pole_pairs)
+{
+    bool named = order * pole_pairs < ECCENTRIC_MOST + 0.5;
+    for (size_t k = 0; k < RESOLVER_ORDERS; ++k)
+        named = named || order == OF_RESOLVER[k];
+    return named;
+}
+
+/* Of a sensor with as many periods as the machine; with one pole pair orders 1 and 2 are those of
+ * position_eccentricity. Of one with other periods, orders that stand out. */
 static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
 {
-    static const double ORDER[] = {1.0, 2.0, 4.0};
-    for (size_t k = survey->machine->pole_pairs == 1 ? 2 : 0; k < sizeof ORDER / sizeof *ORDER; ++k)
-        hci_effect_propose(to, SINE, 2, ORDER[k], 3.0, EXPECTED_RAD);
+    const int p = survey->machine->pole_pairs;
+    for (size_t k = p == 1 ? 2 : 0; k < RESOLVER_ORDERS; ++k)
+        hci_effect_propose(to, SINE, 2, OF_RESOLVER[k], RESOLVER_ORDERS, EXPECTED_RAD);
+    for (size_t k = 0; k < survey->angle_orders; ++k)
+        if (!is_named(survey->angle_order[k], p))
+            hci_effect_propose(to, SINE, 2, survey->angle_order[k], survey->orders, EXPECTED_RAD);
 }
 
 static const hci_effect_correction CORRECTION[] = {
@@ -69,7 +85,7 @@ static const hci_effect_correction CORRECTION[] = {
 const hci_effect_type hci_effect_position_harmonics = {
     .name = "position_harmonics",
     .equation = "θ_read = θ + Σ S sin nθ + C cos nθ",
-    .signature = "electrical orders 1, 2 and 4 around every order, as ∂T/∂θ modulated",
+    .signature = "the orders of the sensor around every order, as ∂T/∂θ modulated",
     HCI_EFFECT_PARAMETERS(PARAMETER),
     .correction = CORRECTION,
     .is_small = true,

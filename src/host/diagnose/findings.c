@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "host/diagnose/candidates/empirical_term.h"
+#include "host/diagnose/search/search.h"
 
 enum { LONGEST_TERM = 80 }; /* bytes of one term in words */
 
@@ -90,6 +91,22 @@ static hci_finding finding_of(const hci_attribution *a, const hci_verdict *v, do
                      v->rival_of->name);
     }
     return f;
+}
+
+static bool stands_alone(const hci_finding *f)
+{
+    return !(f->delta_bic < HCI_DECISIVE) || 3 * f->stays >= 2 * f->left_out;
+}
+
+bool hci_finding_is_part(const hci_diagnosis *d, const hci_finding *f)
+{
+    bool beside = false;
+    for (size_t k = 0; k < d->findings; ++k) {
+        const hci_finding *x = &d->finding[k];
+        beside = beside || (x->verdict == HCI_FINDING_ADDED && stands_alone(x) &&
+                            strcmp(x->effect, hci_empirical_type.name) != 0);
+    }
+    return beside && f->verdict == HCI_FINDING_ADDED && !stands_alone(f);
 }
 
 /* Added, ambiguous, rejected; among those the larger gain first. */

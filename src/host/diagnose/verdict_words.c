@@ -13,26 +13,48 @@
 #define SHOWS        0.05  /* of the noise: torque that an effect has to make to be taken */
 #define BELIEVABLE   0.5   /* of the declared torque per ampere */
 
-/* Names of the findings of one verdict: "cogging, friction and reluctance". */
-static void say_names(const hci_words *w, const hci_diagnosis *d, hci_finding_verdict verdict,
-                      const char *last)
+static bool is_named(const hci_finding *f, hci_finding_verdict verdict)
 {
-    size_t count = 0, said = 0;
-    for (size_t k = 0; k < d->findings; ++k)
-        count += d->finding[k].verdict == verdict && strcmp(d->finding[k].effect, "unknown") != 0;
-    for (size_t k = 0; k < d->findings; ++k) {
-        const hci_finding *f = &d->finding[k];
-        if (f->verdict != verdict || strcmp(f->effect, "unknown") == 0) continue;
-        hci_words_say(w, "%s%s", said == 0 ? "" : said + 1 == count ? last : ", ", f->effect);
-        ++said;
-    }
+    return f->verdict == verdict && strcmp(f->effect, "unknown") != 0;
 }
 
 static bool any(const hci_diagnosis *d, hci_finding_verdict verdict)
 {
     for (size_t k = 0; k < d->findings; ++k)
-        if (d->finding[k].verdict == verdict && strcmp(d->finding[k].effect, "unknown") != 0) return true;
+        if (is_named(&d->finding[k], verdict)) return true;
     return false;
+}
+
+/* Names of the findings of one verdict: "cogging, friction and reluctance". parts: those of them that are
+ * only parts of others, or all but these. */
+static void say_names_of(const hci_words *w, const hci_diagnosis *d, hci_finding_verdict verdict, bool parts,
+                         const char *last)
+{
+    size_t count = 0, named[HCI_MOST_FINDINGS];
+    for (size_t k = 0; k < d->findings; ++k)
+        if (is_named(&d->finding[k], verdict) && hci_finding_is_part(d, &d->finding[k]) == parts)
+            named[count++] = k;
+    for (size_t k = 0; k < count; ++k)
+        hci_words_say(w, "%s%s", k == 0 ? "" : k + 1 == count ? last : ", ", d->finding[named[k]].effect);
+}
+
+static void say_names(const hci_words *w, const hci_diagnosis *d, hci_finding_verdict verdict,
+                      const char *last)
+{
+    say_names_of(w, d, verdict, false, last);
+}
+
+/* Terms that were chosen together with others. */
+static void say_parts_of_whole(const hci_words *w, const hci_diagnosis *d)
+{
+    bool any_part = false;
+    for (size_t k = 0; k < d->findings; ++k)
+        any_part = any_part || hci_finding_is_part(d, &d->finding[k]);
+    if (!any_part) return;
+    hci_words_say(w, " Terms of ");
+    say_names_of(w, d, HCI_FINDING_ADDED, true, " and ");
+    hci_words_say(w, " stand in the machine too, chosen together with these: the recordings would not miss "
+                     "them alone.");
 }
 
 /* What became of an error. */
@@ -144,6 +166,7 @@ static void say_unstable(const hci_words *w, const hci_diagnosis *d)
     for (size_t k = 0; k < d->findings; ++k) {
         const hci_finding *f = &d->finding[k];
         if (f->verdict == HCI_FINDING_REJECTED || f->stays == f->left_out) continue;
+        if (hci_finding_is_part(d, f)) continue; /* said already */
         hci_words_say(w, " With one run, or part of one, left out %s is found in %zu of %zu cases.",
                       f->effect, f->stays, f->left_out);
     }
@@ -185,6 +208,7 @@ static void say_partly(const hci_words *w, const hci_diagnosis *d)
     if (!any(d, HCI_FINDING_ADDED)) say_names(w, d, HCI_FINDING_AMBIGUOUS, " or ");
     if (d->no_load_alone) hci_words_say(w, ", which the runs without a current show by themselves");
     hci_words_say(w, "; what else it lacks is not known%s.", is_unfinished(d) ? " yet" : "");
+    say_parts_of_whole(w, d);
     if (d->no_load_alone && !d->no_load_denied && d->holdout_after_Nm > (1.0 + SAME) * d->holdout_before_Nm)
         hci_words_say(w, " Under load that does not hold by itself: there the error rises with it.");
 }
@@ -257,12 +281,19 @@ static void say_magnetic_only(const hci_words *w, const hci_diagnosis *d)
                "turns, one of them without current, tell them.");
 }
 
-/* A torque that no sensor has read is right only where the shaft drives nothing. */
-static void say_free_shafts(const hci_words *w, const hci_diagnosis *d)
+/* Runs whose torque is inertia × acceleration. */
+static size_t free_shafts(const hci_diagnosis *d)
 {
     size_t count = 0;
     for (size_t k = 0; k < d->runs; ++k)
         count += d->run[k].source == HCI_TORQUE_INERTIA;
+    return count;
+}
+
+/* A torque that no sensor has read is right only where the shaft drives nothing. */
+static void say_free_shafts(const hci_words *w, const hci_diagnosis *d)
+{
+    const size_t count = free_shafts(d);
     if (count > 0)
         hci_words_say(w, " The torque of %zu of %zu runs is inertia x acceleration, as of a free shaft.",
                       count, d->runs);
@@ -335,9 +366,15 @@ static void say_drowned(const hci_words *w, const hci_diagnosis *d)
 {
     hci_words_say(w,
                   "Whether something is missing is not known: the noise of the recordings, %.3g N·m rms, is "
-                  "%.2g of the torque that matters (%.3g N·m). An effect is taken only where it makes more "
-                  "than %.2g N·m rms; longer runs, a slower slope or a torque sensor show less.",
-                  d->noise_Nm, d->noise_Nm / d->drowned_Nm, d->drowned_Nm, SHOWS * d->noise_Nm);
+                  "%.2g of the torque that matters (%.3g N·m). ",
+                  d->noise_Nm, d->noise_Nm / d->drowned_Nm, d->drowned_Nm);
+    if (free_shafts(d) > 0)
+        hci_words_say(
+            w, "No effect stands out of it, nor one that varies more slowly than this noise of a slope; ");
+    else
+        hci_words_say(w, "An effect is taken only where it makes more than %.2g N·m rms; ",
+                      SHOWS * d->noise_Nm);
+    hci_words_say(w, "longer runs, a slower slope or a torque sensor show less.");
 }
 
 static void say_complete(const hci_words *w, const hci_diagnosis *d)
@@ -357,6 +394,7 @@ static void say_added(const hci_words *w, const hci_diagnosis *d)
     hci_words_say(w, "The model lacked ");
     say_names(w, d, HCI_FINDING_ADDED, " and ");
     hci_words_say(w, ".");
+    say_parts_of_whole(w, d);
 }
 
 static void say_ambiguous(const hci_words *w, const hci_diagnosis *d)

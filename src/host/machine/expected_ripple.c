@@ -117,6 +117,18 @@ static void fill_peaks(const machines *m, hci_expected_ripple *e)
     e->middle_percent = exceeded_by(m->value, n, 0.5);
 }
 
+/* The mean torque, apart from the ripple. */
+static void fill_mean(const machines *m, hci_expected_ripple *e)
+{
+    const size_t n = m->uncertainty->machines, count = m->path->count;
+    if (m->path->turns == 0) return;
+    const double mean_Nm = hci_mean(m->path->torque_Nm, count);
+    for (size_t k = 0; k < n; ++k)
+        m->value[k] = fabs(hci_mean(m->torque_Nm + k * count, count) - mean_Nm);
+    e->mean_Nm = mean_Nm;
+    e->mean_error_Nm = exceeded_by(m->value, n, EXCEEDED);
+}
+
 /* In place: torque less what is wanted, to peak amplitudes of orders k/turns. */
 static void to_amplitudes(const machines *m, size_t k, double *work)
 {
@@ -209,8 +221,8 @@ bool hci_expected_ripple_is_far(const hci_expected_ripple *e)
 static hci_expected_ripple nothing(hci_ripple_state state)
 {
     const hci_measured_range none = {NAN, NAN};
-    return (hci_expected_ripple){state, NAN,  NAN, NAN, NAN,   NAN, NAN,           none, none, none,
-                                 none,  none, NAN, NAN, false, 0,   {"", "", NAN}, NAN,  NAN,  0.0};
+    return (hci_expected_ripple){state, NAN, NAN, NAN,   NAN, NAN,           NAN, none, none, none, none,
+                                 none,  NAN, NAN, false, 0,   {"", "", NAN}, NAN, NAN,  NAN,  NAN,  0.0};
 }
 
 static double largest_torque_Nm(const hci_ripple_path *path)
@@ -255,6 +267,7 @@ static hci_status find(const hci_ripple_path *path, const hci_uncertainty *u, hc
         sample_fill(&m, k);
     if (!status) {
         fill_peaks(&m, expected);
+        fill_mean(&m, expected);
         status = fill_worst(&m, expected, note);
     }
     hci_memory_free(m.torque_Nm);

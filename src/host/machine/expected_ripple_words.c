@@ -51,6 +51,17 @@ static void say_ripple(const hci_words *w, const hci_expected_ripple *e)
                       number(e->worst_order_Nm, true, Nm));
 }
 
+/* A sensor that reads all torques too large makes the same of all machines that its recordings allow. */
+static void say_mean(const hci_words *w, const hci_expected_ripple *e)
+{
+    char Nm[NUMBER_SIZE];
+    const bool any =
+        fabs(e->mean_Nm) > ROUNDED * e->mean_error_Nm && fabs(e->mean_Nm) > ROUNDED * e->peak_to_peak_Nm;
+    if (isfinite(e->mean_error_Nm))
+        hci_words_say(w, " Mean torque %.4g N·m, at most %s N·m off (95 %%) as the torque was measured.",
+                      any ? e->mean_Nm : 0.0, number(e->mean_error_Nm, true, Nm));
+}
+
 static void say_measured(const hci_words *w, const hci_expected_ripple *e)
 {
     hci_words_say(w, " (i_d %.3g … %.3g A, i_q %.3g … %.3g A)", e->measured_id_A.least, e->measured_id_A.most,
@@ -141,6 +152,7 @@ void hci_expected_ripple_words(const hci_expected_ripple *e, char *text, size_t 
         return;
     }
     say_ripple(&w, e);
+    say_mean(&w, e);
     say_currents(&w, e);
     say_speed(&w, e);
     say_recordings(&w, e);

@@ -22,6 +22,8 @@ void hci_summary_expected(hci_json *json, const hci_expected_ripple *e)
     if (e->table_peak_to_peak_Nm > 0.0)
         hci_json_number(json, "table_peak_to_peak_Nm", e->table_peak_to_peak_Nm);
     hci_json_number(json, "error_peak_to_peak_Nm_95", e->error_peak_to_peak_Nm);
+    hci_json_number(json, "mean_Nm", e->mean_Nm);
+    hci_json_number(json, "mean_error_Nm_95", e->mean_error_Nm);
     hci_json_number(json, "worst_order", e->worst_order);
     hci_json_number(json, "worst_order_Nm_95", e->worst_order_Nm);
     put_range(json, "id_A", e->id_A);

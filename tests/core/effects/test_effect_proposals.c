@@ -93,6 +93,21 @@ static void test_what_recordings_ask_for(void)
     TEST_ASSERT_TRUE(taken[2].expected > 0.0 && taken[2].expected < 0.4 && taken[3].expected > 0.0);
 }
 
+/* Orders at which the angle may be off, but for those of a resolver and of an eccentric encoder, which are
+ * named whatever stands out. */
+static void test_an_encoder_between_its_lines(void)
+{
+    const double angle_order[4] = {8.0, 2.0, 1.0 / 3.0, 16.0 / 3.0};
+    const hci_machine machine = {.pole_pairs = 3};
+    const hci_effect_survey survey = {
+        .machine = &machine, .orders = 90.0, .angle_order = angle_order, .angle_orders = 4};
+    hci_effect_type_find("position_harmonics")->propose(&survey, &TO);
+    TEST_ASSERT_EQUAL_UINT64(5, count);
+    TEST_ASSERT_EQUAL_DOUBLE(8.0, taken[3].order);
+    TEST_ASSERT_EQUAL_DOUBLE(90.0, taken[3].alternatives);
+    TEST_ASSERT_EQUAL_DOUBLE(16.0 / 3.0, taken[4].order);
+}
+
 /* ---- what each effect names ---- */
 
 typedef struct {
@@ -548,6 +563,7 @@ int main(void)
     RUN_TEST(test_cogging_of_one_make);
     RUN_TEST(test_magnets_of_one_make);
     RUN_TEST(test_what_recordings_ask_for);
+    RUN_TEST(test_an_encoder_between_its_lines);
     RUN_TEST(test_what_each_effect_names);
     RUN_TEST(test_what_cannot_be_seen);
     RUN_TEST(test_harmonics_of_the_back_emf);

@@ -328,6 +328,37 @@ static void test_a_wrong_calibration(void)
     is_value(-0.1, 0.02, term("torque_gain", "gain", 0.0));
 }
 
+/* ---- an encoder that errs between its lines ---- */
+
+/* Encoder of lines that are no multiple of the pole pairs: it errs twice and four times in each. */
+static void record_lines(double lines, double error_rad)
+{
+    declare_cogging();
+    for (int k = 0; k < 6; ++k) {
+        const double d = k % 2 ? 4.0 : -5.0, q = 2.0 * k;
+        record(1500, &(point){k < 3 ? 60.0 : -150.0, q, 0.0, 0.0, 0.0});
+        for (size_t j = 0; j < 1500; ++j) {
+            const double theta_m = run[k].theta_m_rad[j];
+            rec_phases(k ? d : 0.0, q, P * theta_m, run[k].i_A + 3 * j);
+            run[k].torque_Nm[j] += 0.1 * sin(12.0 * P * theta_m);
+            run[k].theta_m_rad[j] +=
+                error_rad / P * (sin(2.0 * lines * theta_m + 0.4) + 0.5 * sin(4.0 * lines * theta_m + 1.0));
+        }
+    }
+    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
+}
+
+/* Orders of torque on both sides of the cogging order, and with i_d, are no cogging torque. */
+static void test_an_encoder_between_its_lines(void)
+{
+    record_lines(10.0, 0.02);
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("position_harmonics")->verdict);
+    TEST_ASSERT_EQUAL_UINT64(1, count_of(HCI_FINDING_ADDED));
+    TEST_ASSERT_EQUAL_UINT64(0, count_of(HCI_FINDING_AMBIGUOUS));
+    is_value(0.02 * cos(0.4), 0.05, term("position_harmonics", "sine", 20.0 / P));
+    is_value(0.01 * sin(1.0), 0.05, term("position_harmonics", "cosine", 40.0 / P));
+}
+
 /* ---- magnets that are not equal ---- */
 
 /* Four runs; torque of the currents and cogging torque vary with the turn, each by a share of its own. */
@@ -486,6 +517,7 @@ int main(void)
     RUN_TEST(test_weak_magnets_are_no_calibration);
     RUN_TEST(test_cogging_alone_is_no_calibration);
     RUN_TEST(test_a_wrong_calibration);
+    RUN_TEST(test_an_encoder_between_its_lines);
     RUN_TEST(test_unequal_magnets);
     RUN_TEST(test_an_eccentric_rotor_has_equal_magnets);
     RUN_TEST(test_a_long_lag_is_no_delay);

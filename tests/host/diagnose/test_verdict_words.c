@@ -70,6 +70,35 @@ static void test_what_runs_without_a_current_show(void)
     TEST_ASSERT_FALSE(says("Under load"));
 }
 
+/* Terms of the iron that were chosen with others and that no recording misses are not what the model lacked.
+ */
+static void test_parts_of_a_whole(void)
+{
+    d.verdict = HCI_DIAGNOSIS_EXPLAINED;
+    d.finding[0] = (hci_finding){"saturation", HCI_FINDING_ADDED, 1900.0, 9, 9, 0.9, ""};
+    d.finding[1] = (hci_finding){"back_emf", HCI_FINDING_ADDED, -77.0, 0, 9, 0.01, ""};
+    d.finding[2] = (hci_finding){"reluctance", HCI_FINDING_ADDED, -105.0, 0, 9, 0.01, ""};
+    d.findings = 3;
+    TEST_ASSERT_TRUE(
+        says("The model lacked saturation. Terms of back_emf and reluctance stand in the machine too"));
+    TEST_ASSERT_FALSE(says("0 of 9"));
+    d.finding[1].stays = 6; /* enough */
+    TEST_ASSERT_TRUE(says("The model lacked saturation and back_emf. Terms of reluctance stand"));
+    d.finding[2].delta_bic = 400.0; /* on evidence of its own */
+    TEST_ASSERT_TRUE(says("The model lacked saturation, back_emf and reluctance."));
+    TEST_ASSERT_TRUE(says("reluctance is found in 0 of 9"));
+}
+
+/* Nothing else is there that it is a part of. */
+static void test_a_part_of_nothing(void)
+{
+    d.verdict = HCI_DIAGNOSIS_EXPLAINED;
+    d.finding[0] = (hci_finding){"saturation", HCI_FINDING_ADDED, -131.0, 0, 8, 0.9, ""};
+    d.findings = 1;
+    TEST_ASSERT_TRUE(says("The model lacked saturation."));
+    TEST_ASSERT_TRUE(says("saturation is found in 0 of 8"));
+}
+
 static void test_zeros_of_sensors(void)
 {
     hci_run_errors run[7] = {{0}};
@@ -136,7 +165,13 @@ static void test_noise_as_large_as_the_torque(void)
     d.drowned_Nm = 5.0;
     TEST_ASSERT_TRUE(says("Whether something is missing is not known"));
     TEST_ASSERT_TRUE(says("0.64 of the torque that matters (5 N·m)"));
+    TEST_ASSERT_TRUE(says("only where it makes more than 0.16 N·m rms"));
     TEST_ASSERT_FALSE(says("No known effect"));
+    hci_run_errors run[1] = {{.source = HCI_TORQUE_INERTIA}};
+    d.run = run;
+    d.runs = 1; /* of a slope, whose noise is fast */
+    TEST_ASSERT_FALSE(says("only where it makes more than"));
+    TEST_ASSERT_TRUE(says("nor one that varies more slowly than this noise of a slope"));
 }
 
 /* The recording that disagrees comes before all else. */
@@ -161,6 +196,8 @@ int main(void)
     RUN_TEST(test_means_beside_a_ripple);
     RUN_TEST(test_an_unfinished_search_gives_no_causes);
     RUN_TEST(test_what_runs_without_a_current_show);
+    RUN_TEST(test_parts_of_a_whole);
+    RUN_TEST(test_a_part_of_nothing);
     RUN_TEST(test_zeros_of_sensors);
     RUN_TEST(test_what_was_not_looked_for);
     RUN_TEST(test_what_is_decisive_and_not_taken);

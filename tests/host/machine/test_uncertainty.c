@@ -276,6 +276,32 @@ static void test_one_uncertain_order(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, amplitude_Nm, e.worst_order_Nm);
 }
 
+/* Machines whose torque per ampere is off by 1, 2 … ten-thousandths, one way and the other: that is their
+ * mean, and no ripple. */
+static void test_the_mean_is_told_apart(void)
+{
+    static char text[16384] = "effect,parameter,value,unit,departures\nback_emf,sine_1,0,Nm_per_A,";
+    char words[1024];
+    hci_ripple_path path = path_of(0.0, 2.0);
+    for (int m = 1; m <= MACHINES; ++m)
+        snprintf(text + strlen(text), 32, " %.9g", (m % 2 ? -1e-4 : 1e-4) * m);
+    strcat(text, "\ncogging,sine_12,0,Nm,");
+    for (int m = 1; m <= MACHINES; ++m)
+        strcat(text, m % 3 ? " 1e-5" : " -1e-5");
+    strcat(text, "\n");
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, read_texts(text, THREE_RUNS), note.text);
+    hci_expected_ripple e = expect(&path);
+    const double off_Nm = 1.5 * 2.0 * 1e-4 * ceil(0.95 * (MACHINES + 1));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, MEAN_NM, e.mean_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, off_Nm, e.mean_error_Nm);
+    TEST_ASSERT_TRUE(e.error_peak_to_peak_Nm < 2.1e-5);
+    hci_expected_ripple_words(&e, words, sizeof words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "Mean torque 3 N·m, at most 0.057 N·m off (95 %)"), words);
+    path.turns = 0; /* a mean of a part of a turn is none */
+    e = expect(&path);
+    TEST_ASSERT_TRUE(isnan(e.mean_Nm) && isnan(e.mean_error_Nm));
+}
+
 /* Ripple of the model is part of the torque's, and none of the error's; what is wanted is no error of an
  * order. */
 static void test_ripple_of_the_model(void)
@@ -514,6 +540,7 @@ int main(void)
     RUN_TEST(test_origin_that_is_wrong);
     RUN_TEST(test_belongs_to_one_list_of_effects);
     RUN_TEST(test_one_uncertain_order);
+    RUN_TEST(test_the_mean_is_told_apart);
     RUN_TEST(test_ripple_of_the_model);
     RUN_TEST(test_currents_outside);
     RUN_TEST(test_grows_with_the_current);

@@ -215,6 +215,11 @@ typedef struct {
     bool nothing_measured;         /* no run to be fitted has an angle and a torque: nothing can be said */
 } hci_diagnosis;
 
+/* Whether a finding is in the machine beside others as a part of a whole that was chosen together, such as
+ * the co-energy of the iron, and the recordings would not miss it alone: ΔBIC does not speak for it, and it
+ * is found in fewer than two of three cases with a run left out. O(findings). */
+bool hci_finding_is_part(const hci_diagnosis *diagnosis, const hci_finding *finding);
+
 /* Of hci_diagnosis.open_voltage_off, that is no error of instruments: magnets, turns or harmonics differ. */
 #define HCI_OPEN_VOLTAGE_OFF 0.02
 

@@ -22,7 +22,7 @@ typedef enum {
 /* Why it is not known in words, "" where it is; a static string. */
 const char *hci_ripple_state_words(hci_ripple_state state);
 
-/* Ripple of the torque. Of twenty machines that the recordings allow, one exceeds each figure. */
+/* Ripple and mean of the torque. Of twenty machines that the recordings allow, one exceeds each figure. */
 typedef struct {
     hci_ripple_state state;             /* where not known, all numbers are NAN */
     double peak_to_peak_Nm;             /* max − min over the angle */
@@ -41,6 +41,8 @@ typedef struct {
     double unbelievable_order; /* the order of an effect's back-EMF that is larger than magnets and windings
                                 * make it; NAN: none */
     double unbelievable_share; /* its amplitude over that of the fundamental; NAN: none */
+    double mean_Nm;            /* of the torque of the model; NAN where the samples are no whole turns */
+    double mean_error_Nm;      /* size of the mean torque less that; NAN with it */
     double table_peak_to_peak_Nm; /* the part of peak_to_peak_Nm that the cut of a table adds; 0: currents as
                                    * they were solved */
 } hci_expected_ripple;

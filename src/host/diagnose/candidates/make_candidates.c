@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/diagnose/candidates/angle_orders.h"
 #include "host/diagnose/candidates/candidate_orders.h"
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/candidates/flux_orders.h"
@@ -230,6 +231,7 @@ static void add_all(builder *b, const hci_candidates_source *s, hci_effect_surve
 {
     double slot[MOST_SLOT_ORDERS], turn[MOST_TURN_ORDERS], load[MOST_TURN_ORDERS];
     hci_flux_orders flux;
+    hci_angle_orders angle;
     hci_effect_speed_mean of_speed[HCI_SPEED_MEANS];
     const hci_effect_proposals to = {add, b};
     x->has_turn = lines->stride == 1;
@@ -242,13 +244,17 @@ static void add_all(builder *b, const hci_candidates_source *s, hci_effect_surve
     x->load_orders = orders_of(lines, s->machine->pole_pairs, HCI_ORDERS_OF_LOAD, MOST_TURN_ORDERS, load);
     x->poles_differ =
         !has_direct(s) && hci_candidate_orders_poles_differ(lines, (size_t)s->machine->pole_pairs);
-    b->failed = !hci_flux_orders_find(s, x->has_turn, &flux);
+    b->failed = !hci_flux_orders_find(s, x->has_turn, &flux) ||
+                !hci_angle_orders_find(s, lines->stride, lines->resolved, &angle);
+    if (b->failed) return;
     x->flux_order = flux.order;
     x->flux_orders = flux.count;
     x->one_gain = flux.one_gain;
+    x->angle_order = angle.order;
+    x->angle_orders = angle.count;
     x->of_speed = of_speed;
     x->of_speeds = hci_residual_by_speed(s, of_speed);
-    for (size_t r = 0; !b->failed && (b->type = hci_effect_type_at(r)) != NULL; ++r)
+    for (size_t r = 0; (b->type = hci_effect_type_at(r)) != NULL; ++r)
         if (b->type->propose && (!s->magnetic_only || is_magnetic(s, b->type, x->current_A)))
             b->type->propose(x, &to);
     if (!s->known_only) add_unknown(b, s, lines);

@@ -24,6 +24,14 @@ size_t hci_regression_runs_in_use(const hci_regression *e)
     return count;
 }
 
+bool hci_regression_has_slopes(const hci_regression *e)
+{
+    bool has = false;
+    for (size_t r = 0; r < e->samples->run_count; ++r)
+        has = has || (e->use[r] && e->runs[r].torque_source == HCI_TORQUE_INERTIA);
+    return has;
+}
+
 hci_status hci_regression_each_run(hci_regression *e,
                                    hci_status (*visit)(void *context, size_t run, hci_note *note),
                                    void *context, hci_note *note)

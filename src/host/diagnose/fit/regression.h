@@ -39,6 +39,8 @@ const hci_segment *hci_regression_next(const hci_regression *regression, const h
 
 /* How many runs are in use. */
 size_t hci_regression_runs_in_use(const hci_regression *regression);
+/* Whether the torque of any of them is inertia × acceleration, which is a slope of the speed. */
+bool hci_regression_has_slopes(const hci_regression *regression);
 
 /* Calls `visit` once for each run in use, with that run alone in use, until it returns a status other than
  * HCI_OK. HCI_ERROR_MEMORY, and what `visit` returns. */

@@ -31,20 +31,12 @@ static void segment_add(comparing *c, const hci_segment *s)
             c->within_Nm[c->count++] = fabs(c->instant_Nm[k] - c->predicted.torque_Nm[k]);
 }
 
-static bool has_slopes(const hci_regression *e)
-{
-    bool has = false;
-    for (size_t r = 0; r < e->samples->run_count; ++r)
-        has = has || (e->use[r] && e->runs[r].torque_source == HCI_TORQUE_INERTIA);
-    return has;
-}
-
 hci_status hci_within_slope_find(const hci_regression *e, const hci_effects *effects, double *usual_Nm,
                                  hci_note *note)
 {
     comparing c = {.regression = e, .effects = effects};
     *usual_Nm = 0.0;
-    if (!has_slopes(e)) return HCI_OK;
+    if (!hci_regression_has_slopes(e)) return HCI_OK;
     c.within_Nm = hci_memory_new(e->samples->count + hci_segment_longest(e->samples), sizeof *c.within_Nm);
     c.instant_Nm = c.within_Nm ? c.within_Nm + e->samples->count : NULL;
     const bool made = c.within_Nm && hci_predicted_reading_make(e, effects, false, &c.predicted);

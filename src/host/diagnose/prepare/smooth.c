@@ -1,10 +1,12 @@
 #include "host/diagnose/prepare/smooth.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "hci/math/dense.h"
 #include "host/base/memory.h"
+#include "host/diagnose/prepare/standing_waves.h"
 #include "host/numeric/normal_equations.h"
 #include "host/numeric/statistics.h"
 #include "host/recording/rotor_frame.h"
@@ -19,11 +21,15 @@ enum {
     LEAST_IN_ALL = 2 * LEAST_SAMPLES * MOST_ORDER,
     LEAST_IN_MEAN = LEAST_SAMPLES * FIRST_ORDERS, /* in a mean over turns, where less noise is left */
     SHARPEST = 120,                               /* electrical order, of currents with edges */
-    ERROR_PERIODS = 5
+    MOST_OF_TURN = 300, /* periods in a turn, of an encoder that errs between its lines */
+    USUAL_PERIODS = 5,  /* of an encoder or a resolver that errs */
+    OTHER_PERIODS = 6,
+    ERROR_PERIODS = USUAL_PERIODS + OTHER_PERIODS
 };
 
-#define REPEATS  60.0 /* χ² of ten values that repeat, once in 10⁸ by chance */
-#define RESOLVED 0.48 /* periods for each sample */
+#define WHOLE_PERIODS 2.0  /* that waves one apart need to be told apart */
+#define REPEATS       60.0 /* χ² of ten values that repeat, once in 10⁸ by chance */
+#define RESOLVED      0.48 /* periods for each sample */
 #define BY_CHANCE                                                                                            \
     10.0 /* times the mean square that noise has at an order: of 200 one in a hundred recordings */
 #define NOTHING 1e-5 /* of the current, that is no order of it */
@@ -31,6 +37,13 @@ enum {
 #define TURNING 0.5  /* and of speed, for the angle to be a smooth curve */
 
 /* ---- angle ---- */
+
+/* How many periods in a turn the samples of a segment resolve. */
+static double periods_resolved(const hci_binned_sample *sample, size_t n)
+{
+    const double span_rad = fabs(sample[n - 1].reading.theta_m_rad - sample[0].reading.theta_m_rad);
+    return span_rad > 0.0 ? RESOLVED * (double)(n - 1) * 2.0 * HCI_PI / span_rad : 0.0;
+}
 
 static bool is_turning(const hci_binned_sample *sample, size_t n)
 {
@@ -79,6 +92,35 @@ static size_t error_periods(const hci_binned_sample *sample, size_t n, int pole_
         if (OF_TURN[k] * span > 2.0 * HCI_PI && OF_TURN[k] != pole_pairs && OF_TURN[k] != 2 * pole_pairs)
             period[count++] = OF_TURN[k];
     return count;
+}
+
+/* Further ones that stand out of what smoothing took: an encoder that makes the angle of a sine and a cosine
+ * errs a whole number of times in each of its lines, of which a turn may have any. values: room for [2][n].
+ * Adds them to those that are there; count: in/out. False when memory is out. */
+static bool error_periods_add(const hci_binned_sample *sample, size_t n, size_t stride, const double *smooth,
+                              double *values, double period[ERROR_PERIODS], size_t *count)
+{
+    const size_t inner = n - 2 * REACH;
+    const double span_rad = fabs(smooth[n - 1] - smooth[0]), resolved = periods_resolved(sample, n);
+    const double *const taken = values + inner;
+    size_t found[OTHER_PERIODS + USUAL_PERIODS], others = 0;
+    hci_standing_waves q = {.theta_m_rad = values, .value = &taken, .n = inner, .axes = 1, .stride = stride};
+    q.most_periods = (size_t)fmin(resolved, (double)MOST_OF_TURN);
+    q.apart = 2 * stride;
+    if (!(span_rad * (double)stride > WHOLE_PERIODS * 2.0 * HCI_PI)) return true;
+    for (size_t k = 0; k < inner; ++k) {
+        values[k] = smooth[REACH + k];
+        values[inner + k] = sample[REACH + k].reading.theta_m_rad - smooth[REACH + k];
+    }
+    if (!hci_standing_waves_find(&q, OTHER_PERIODS, found, &others)) return false;
+    const size_t usual = *count;
+    for (size_t k = 0; k < others; ++k) {
+        bool is_there = false;
+        for (size_t j = 0; j < usual; ++j)
+            is_there = is_there || fabs(period[j] - (double)found[k]) < 0.5;
+        if (!is_there) period[(*count)++] = (double)found[k];
+    }
+    return true;
 }
 
 static void error_row(double theta_m_rad, const double *period, size_t count, double *row)
@@ -135,18 +177,20 @@ static void errors_keep(const hci_binned_sample *sample, size_t n, const double 
 static bool angle_smooth(hci_binned_sample *sample, size_t n, int pole_pairs, bool turns)
 {
     double period[ERROR_PERIODS];
-    const size_t count = error_periods(sample, n, pole_pairs, turns, period);
-    double *smooth = hci_memory_new(n, sizeof *smooth);
+    size_t count = error_periods(sample, n, pole_pairs, turns, period);
+    double *smooth = hci_memory_new(3 * n, sizeof *smooth);
     if (!smooth) return false;
     for (size_t k = 0; k < n; ++k) {
         const size_t reach = k < REACH ? k : n - 1 - k < REACH ? n - 1 - k : REACH;
         smooth[k] = reach < 2 ? sample[k].reading.theta_m_rad : parabola_at(sample, k - reach, k + reach, k);
     }
+    const bool done =
+        error_periods_add(sample, n, turns ? 1 : (size_t)pole_pairs, smooth, smooth + n, period, &count);
     errors_keep(sample, n, period, count, smooth);
     for (size_t k = 0; k < n; ++k)
         sample[k].reading.theta_m_rad = smooth[k];
     hci_memory_free(smooth);
-    return true;
+    return done;
 }
 
 /* ---- currents ---- */
@@ -162,13 +206,6 @@ static bool is_steady(const hci_binned_sample *sample, size_t n, int pole_pairs)
         length += hypot(i.d, i.q) / (double)n;
     }
     return hypot(d[1] - d[0], q[1] - q[0]) <= STEADY * length;
-}
-
-/* How many periods in a turn the samples of a segment resolve. */
-static double periods_resolved(const hci_binned_sample *sample, size_t n)
-{
-    const double span_rad = fabs(sample[n - 1].reading.theta_m_rad - sample[0].reading.theta_m_rad);
-    return span_rad > 0.0 ? RESOLVED * (double)(n - 1) * 2.0 * HCI_PI / span_rad : 0.0;
 }
 
 /* Periods in a turn, ascending: the electrical orders that drives ripple at, once and twice a turn, which an
@@ -321,78 +358,67 @@ static void coordinates_write(const series_workspace *r, size_t n, int pole_pair
     }
 }
 
-/* ---- edges ---- */
+/* ---- orders that the series does not have ---- */
 
-/* Sums of i_d and i_q with a wave. */
-typedef struct {
-    double cosine[2], sine[2];
-} order_sums;
-
-/* Squared amplitude of the larger one. */
-static double largest_of(const order_sums *x, size_t n)
+static int ascending(const void *a, const void *b)
 {
-    double most = 0.0;
-    for (int axis = 0; axis < 2; ++axis)
-        most = fmax(most, x->cosine[axis] * x->cosine[axis] + x->sine[axis] * x->sine[axis]);
-    return most * 4.0 / ((double)n * (double)n);
+    const size_t x = *(const size_t *)a, y = *(const size_t *)b;
+    return (x > y) - (x < y);
 }
 
-/* What the series took of i_d and i_q at a sample. */
-static void taken_at(const hci_binned_sample *sample, int pole_pairs, const series_workspace *r, size_t k,
-                     double taken[2])
+/* What the series took of i_d and i_q, and the angles. values: [3][n]. */
+static void taken_fill(const hci_binned_sample *sample, size_t n, int pole_pairs, const series_workspace *r,
+                       double *values)
 {
-    const hci_dq i = hci_sample_dq(&sample[k].reading, pole_pairs);
-    taken[0] = i.d - r->coordinate[0][k];
-    taken[1] = i.q - r->coordinate[1][k];
-}
-
-/* Of the electrical orders above those of the series, each. */
-static void orders_sum(const hci_binned_sample *sample, size_t n, int pole_pairs, const series_workspace *r,
-                       order_sums *sums)
-{
-    double taken[2];
-    memset(sums, 0, (SHARPEST + 1) * sizeof *sums);
     for (size_t k = 0; k < n; ++k) {
-        const double theta = pole_pairs * sample[k].reading.theta_m_rad, c = cos(theta), s = sin(theta);
-        double x = cos(MOST_ORDER * theta), y = sin(MOST_ORDER * theta);
-        taken_at(sample, pole_pairs, r, k, taken);
-        for (size_t order = MOST_ORDER + 1; order <= SHARPEST; ++order) {
-            const double next = c * x - s * y;
-            y = s * x + c * y;
-            x = next;
-            for (int axis = 0; axis < 2; ++axis) {
-                sums[order].cosine[axis] += x * taken[axis];
-                sums[order].sine[axis] += y * taken[axis];
-            }
-        }
+        const hci_dq i = hci_sample_dq(&sample[k].reading, pole_pairs);
+        values[k] = i.d - r->coordinate[0][k];
+        values[n + k] = i.q - r->coordinate[1][k];
+        values[2 * n + k] = sample[k].reading.theta_m_rad;
     }
 }
 
-/* What noise alone has at an order hardly ever: most orders are noise alone, so their median tells. */
-static double by_chance(const order_sums *sums, size_t n)
+/* Waves that stand out of what the series took: of the electrical period up to edges, and of the turn, of
+ * which a rotor and the interpolation of an encoder may have any, up to fewer. */
+static bool waves_find(hci_standing_waves *q, size_t pole_pairs, bool turns, double resolved,
+                       size_t periods[MOST_PERIODS], size_t *count)
 {
-    double square[SHARPEST - MOST_ORDER];
-    for (size_t k = 0; k < SHARPEST - MOST_ORDER; ++k)
-        square[k] = largest_of(&sums[MOST_ORDER + 1 + k], n);
-    return BY_CHANCE / log(2.0) * hci_median(square, SHARPEST - MOST_ORDER);
+    size_t of_turn[MOST_PERIODS], whole = 0, others = 0;
+    q->stride = pole_pairs;
+    q->most_periods = (size_t)fmin(resolved, (double)(SHARPEST * pole_pairs));
+    if (!hci_standing_waves_find(q, MOST_PERIODS, periods, &whole)) return false;
+    q->stride = 1;
+    q->most_periods = turns ? (size_t)fmin(resolved, (double)MOST_OF_TURN) : 0;
+    if (!hci_standing_waves_find(q, MOST_PERIODS, of_turn, &others)) return false;
+    for (size_t k = 0; k < others && whole < MOST_PERIODS; ++k)
+        if (of_turn[k] % pole_pairs != 0) periods[whole++] = of_turn[k];
+    *count = whole;
+    return true;
 }
 
-/* Blocks of current have orders far above those that drives ripple at: a series that ends before them rounds
- * their edges, and that passes for effects of those orders. Adds the orders that stand out of what the series
- * took; returns how many periods there are then. */
-static size_t edges_add(const hci_binned_sample *sample, size_t n, int pole_pairs, const series_workspace *r,
-                        size_t *periods, size_t count, double resolved)
+/* Blocks of current have orders far above those that drives ripple at, and an encoder whose angle errs
+ * between its lines makes them of steady currents: a series without them rounds both, and that passes for
+ * effects of those orders. Adds the orders that stand out of what the series took. count: in/out. False when
+ * memory is out. */
+static bool standing_add(const hci_binned_sample *sample, size_t n, int pole_pairs, bool turns,
+                         const series_workspace *r, size_t *periods, size_t *count, double resolved)
 {
-    order_sums sums[SHARPEST + 1];
-    const size_t p = (size_t)pole_pairs,
-                 most = n / LEAST_SAMPLES < MOST_PERIODS ? n / LEAST_SAMPLES : MOST_PERIODS;
+    size_t found[MOST_PERIODS], more = 0;
+    const size_t most = n / LEAST_SAMPLES < MOST_PERIODS ? n / LEAST_SAMPLES : MOST_PERIODS;
     const double current_A = NOTHING * hypot(r->coordinate[0][0], r->coordinate[1][0]);
-    orders_sum(sample, n, pole_pairs, r, sums);
-    const double least = fmax(by_chance(sums, n), current_A * current_A);
-    for (size_t order = MOST_ORDER + 1; order <= SHARPEST && count < most; ++order)
-        if ((double)(order * p) <= resolved && largest_of(&sums[order], n) > least)
-            periods[count++] = order * p;
-    return count;
+    double *values = hci_memory_new(3 * n, sizeof *values);
+    if (!values) return false;
+    const double *const axis[] = {values, values + n};
+    hci_standing_waves q = {.theta_m_rad = values + 2 * n, .value = axis, .n = n, .axes = 2, .apart = 1};
+    q.least = current_A * current_A;
+    taken_fill(sample, n, pole_pairs, r, values);
+    const bool done = waves_find(&q, (size_t)pole_pairs, turns, resolved, found, &more);
+    const size_t before = *count;
+    for (size_t k = 0; k < more && *count < most; ++k)
+        if (!bsearch(&found[k], periods, before, sizeof *periods, ascending)) periods[(*count)++] = found[k];
+    qsort(periods, *count, sizeof *periods, ascending);
+    hci_memory_free(values);
+    return done;
 }
 
 /* The series of the currents; false where one has no solution. */
@@ -437,13 +463,14 @@ static bool series_make(hci_binned_sample *sample, const hci_segment *segment, i
     size_t periods[MOST_PERIODS];
     const double resolved = periods_resolved(sample, n);
     const size_t count = periods_list(pole_pairs, turns, n, resolved, periods);
+    size_t all = count;
     series_workspace workspace;
     if (n < least || count == 0) return true;
     bool made = workspace_make(&workspace, n, 2 * count + 1);
     if (made) *series = currents_fit(sample, n, pole_pairs, periods, count, &workspace);
-    const size_t all =
-        made && *series ? edges_add(sample, n, pole_pairs, &workspace, periods, count, resolved) : count;
-    if (all > count) {
+    if (made && *series)
+        made = standing_add(sample, n, pole_pairs, turns, &workspace, periods, &all, resolved);
+    if (made && all > count) {
         workspace_release(&workspace);
         made = workspace_make(&workspace, n, 2 * all + 1);
         if (made) *series = currents_fit(sample, n, pole_pairs, periods, all, &workspace);

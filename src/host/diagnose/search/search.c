@@ -1,4 +1,5 @@
 #include "host/diagnose/search/search.h"
+#include "host/base/memory.h"
 #include "host/diagnose/fit/current_sums.h"
 #include "host/diagnose/fit/model.h"
 #include "host/diagnose/fit/noise_estimate.h"
@@ -190,14 +191,52 @@ hci_status hci_search_explained_by(hci_search *s, const hci_fitted_model *model,
     return status;
 }
 
+/* What one model has besides the other, whitened as the noise is: [samples]. */
+static hci_status difference_fill(hci_search *s, const hci_candidates *with, const hci_candidates *without,
+                                  double *difference_Nm, hci_note *note)
+{
+    const hci_binned_samples *samples = s->regression->samples;
+    hci_status status = hci_search_residual(s, without, note);
+    if (status) return status;
+    memcpy(difference_Nm, s->residual_Nm, samples->count * sizeof *difference_Nm);
+    status = hci_search_residual(s, with, note);
+    if (status) return status;
+    for (size_t j = 0; j < samples->count; ++j)
+        difference_Nm[j] -= s->residual_Nm[j];
+    for (const hci_segment *x = NULL; (x = hci_regression_next(s->regression, x)) != NULL;)
+        hci_noise_whiten(hci_regression_noise(s->regression, x), difference_Nm + x->first, x->count, 1);
+    return HCI_OK;
+}
+
+/* The noise of a slope is nearly all of it fast: of what varies more slowly a sample says as much as one of
+ * white noise of a small part of its size. Whether an effect is noticeable beside that. */
+static hci_status shows_beside_slopes(hci_search *s, const hci_candidates *with,
+                                      const hci_candidates *without, bool *shows, hci_note *note)
+{
+    double square = 0.0, count = 0.0;
+    double *difference_Nm = hci_memory_new(s->regression->samples->count + 1, sizeof *difference_Nm);
+    hci_status status = difference_Nm ? difference_fill(s, with, without, difference_Nm, note)
+                                      : hci_note_memory(note, NULL, "what an effect explains");
+    for (const hci_segment *x = NULL; !status && (x = hci_regression_next(s->regression, x)) != NULL;) {
+        for (size_t j = x->first; j < x->first + x->count; ++j)
+            square += difference_Nm[j] * difference_Nm[j];
+        count += hci_segment_joined(x) * (double)hci_segment_telling(s->regression->samples, x);
+    }
+    *shows = !status && square > NOTICEABLE * NOTICEABLE * count;
+    hci_memory_free(difference_Nm);
+    return status;
+}
+
 hci_status hci_search_noticeable(hci_search *s, const hci_candidates *with, const hci_candidates *without,
                                  bool *noticeable, hci_note *note)
 {
     double explained_Nm;
     hci_status status = hci_search_explained(s, with, without, &explained_Nm, note);
-    const double least = fmax(NOTICEABLE * hci_search_noise_rms(s), RESOLVED * s->resolution_Nm);
-    *noticeable = !status &&
-                  (explained_Nm > least || hci_candidates_types_in(with) == hci_candidates_types_in(without));
+    const double least = RESOLVED * s->resolution_Nm;
+    *noticeable = !status && (explained_Nm > fmax(NOTICEABLE * hci_search_noise_rms(s), least) ||
+                              hci_candidates_types_in(with) == hci_candidates_types_in(without));
+    if (!status && !*noticeable && explained_Nm > least && hci_regression_has_slopes(s->regression))
+        status = shows_beside_slopes(s, with, without, noticeable, note);
     if (!status && !*noticeable) status = shows_in_sums(s, with, without, noticeable, note);
     return status;
 }

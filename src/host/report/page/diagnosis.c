@@ -9,15 +9,20 @@
 
 enum { WORDS_SIZE = 2048, NAMES_SIZE = 512 };
 
+static bool is_named(const hci_diagnosis *d, const hci_finding *f, hci_finding_verdict verdict)
+{
+    return f->verdict == verdict && strcmp(f->effect, "unknown") != 0 && !hci_finding_is_part(d, f);
+}
+
 /* "reluctance, saturation and back_emf": what has a verdict and a name; "" for none. */
 static void names_of(const hci_diagnosis *d, hci_finding_verdict verdict, char text[NAMES_SIZE])
 {
     size_t left = 0, used = 0;
     text[0] = '\0';
     for (size_t k = 0; k < d->findings; ++k)
-        left += d->finding[k].verdict == verdict && strcmp(d->finding[k].effect, "unknown") != 0;
+        left += is_named(d, &d->finding[k], verdict);
     for (size_t k = 0; k < d->findings && used < NAMES_SIZE; ++k) {
-        if (d->finding[k].verdict != verdict || strcmp(d->finding[k].effect, "unknown") == 0) continue;
+        if (!is_named(d, &d->finding[k], verdict)) continue;
         const char *between = used == 0                      ? ""
                               : left > 1                     ? ", "
                               : verdict == HCI_FINDING_ADDED ? " and "

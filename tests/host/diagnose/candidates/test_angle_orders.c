@@ -1,0 +1,137 @@
+/* At which orders an angle may be read wrong: errors that were put in, and ripple that is none. */
+#include "host/diagnose/candidates/angle_orders.h"
+
+#include <string.h>
+
+#include "support/recording.h"
+#include "unity.h"
+
+enum { P = 3, RUNS = 4, SAMPLES = 300, COUNT = RUNS * SAMPLES };
+
+static const double NOISE_NM = 0.002;
+
+static hci_wave emf[] = {{.order = 1.0, .sequence = 1, .sine = 0.2},
+                         {.order = 5.0, .sequence = 1, .sine = 0.01}};
+static hci_harmonic cogging[] = {{.order = 6.0, .sine = 0.1}, {.order = 12.0, .cosine = 0.04}};
+static const hci_machine MACHINE = {
+    .pole_pairs = P, .back_emf = emf, .back_emf_count = 2, .cogging = cogging, .cogging_count = 2};
+
+static uint64_t seed;
+static hci_binned_sample sample[COUNT];
+static hci_segment segment[RUNS];
+static hci_run_statistics statistics[RUNS];
+static hci_run run[RUNS];
+static bool use[RUNS];
+static double residual_Nm[COUNT], variance[COUNT];
+static hci_binned_samples samples;
+static hci_candidates_source source;
+static hci_angle_orders found;
+
+/* One turn each: without a current, and with i_d of both signs. */
+void setUp(void)
+{
+    static const double ID_A[RUNS] = {0.0, 3.0, -4.0, 2.0}, IQ_A[RUNS] = {0.0, 6.0, 8.0, -5.0};
+    seed = 11;
+    memset(sample, 0, sizeof sample);
+    for (size_t r = 0; r < RUNS; ++r) {
+        segment[r] = (hci_segment){.run = r, .first = r * SAMPLES, .count = SAMPLES};
+        use[r] = true;
+        run[r].torque_source = HCI_TORQUE_MEASURED;
+        for (size_t k = r * SAMPLES; k < (r + 1) * SAMPLES; ++k) {
+            sample[k].reading.theta_m_rad = 2.0 * REF_PI * (double)(k % SAMPLES) / SAMPLES;
+            rec_phases(ID_A[r], IQ_A[r], P * sample[k].reading.theta_m_rad, sample[k].reading.i_abc);
+            residual_Nm[k] = NOISE_NM * ref_normal(&seed);
+            variance[k] = NOISE_NM * NOISE_NM;
+        }
+    }
+    samples = (hci_binned_samples){sample, COUNT, segment, RUNS, statistics, RUNS};
+    source = (hci_candidates_source){.machine = &MACHINE,
+                                     .samples = &samples,
+                                     .runs = run,
+                                     .use = use,
+                                     .residual_Nm = residual_Nm,
+                                     .variance = variance};
+}
+
+void tearDown(void)
+{
+}
+
+/* Of periods in a mechanical turn, in electrical radians: what is predicted at the angle that is read, less
+ * what acts. */
+static void err(const double *periods, const double *error_rad, size_t count)
+{
+    for (size_t k = 0; k < COUNT; ++k) {
+        const hci_sample *x = &sample[k].reading;
+        const double theta_rad = P * x->theta_m_rad;
+        double read_rad = theta_rad;
+        for (size_t j = 0; j < count; ++j)
+            read_rad += error_rad[j] * sin(periods[j] * x->theta_m_rad + 0.4 + 0.6 * (double)j);
+        residual_Nm[k] +=
+            hci_torque_at(&MACHINE, theta_rad, x->i_abc) - hci_torque_at(&MACHINE, read_rad, x->i_abc);
+    }
+}
+
+static void find(void)
+{
+    TEST_ASSERT_TRUE(hci_angle_orders_find(&source, 1, 0.48 * SAMPLES / P, &found));
+}
+
+/* An error of one order makes torque on both sides of all cogging orders, which are no other errors: the
+ * smaller one of another order comes next. */
+static void test_errors_between_lines(void)
+{
+    static const double PERIODS[] = {20.0, 40.0}, ERROR_RAD[] = {0.02, 0.006};
+    err(PERIODS, ERROR_RAD, 2);
+    find();
+    TEST_ASSERT_TRUE(found.count >= 2);
+    TEST_ASSERT_EQUAL_DOUBLE(20.0 / P, found.order[0]);
+    TEST_ASSERT_EQUAL_DOUBLE(40.0 / P, found.order[1]);
+    for (size_t r = 1; r < RUNS; ++r)
+        use[r] = false;
+    find(); /* with cogging torque alone */
+    TEST_ASSERT_TRUE(found.count >= 2);
+    TEST_ASSERT_EQUAL_DOUBLE(20.0 / P, found.order[0]);
+    TEST_ASSERT_EQUAL_DOUBLE(40.0 / P, found.order[1]);
+}
+
+static void test_noise_is_no_error(void)
+{
+    find();
+    TEST_ASSERT_EQUAL_UINT64(0, found.count);
+}
+
+/* A ripple of i_d alone asks for an error that the cogging torque does not have. */
+static void test_what_load_alone_shows(void)
+{
+    for (size_t k = 0; k < COUNT; ++k) {
+        static const double ID_A[RUNS] = {0.0, 3.0, -4.0, 2.0};
+        residual_Nm[k] += 0.004 * ID_A[k / SAMPLES] * sin(6.0 * P * sample[k].reading.theta_m_rad);
+    }
+    find();
+    for (size_t k = 0; k < found.count; ++k)
+        TEST_ASSERT_TRUE(fabs(found.order[k] - 6.0) > 0.1);
+}
+
+/* Runs that are held tell no torque, and those that are not in use nothing. */
+static void test_runs_that_tell_nothing(void)
+{
+    static const double PERIODS[] = {20.0}, ERROR_RAD[] = {0.02};
+    err(PERIODS, ERROR_RAD, 1);
+    for (size_t r = 0; r < RUNS; ++r) {
+        use[r] = r > 1;
+        run[r].torque_source = HCI_TORQUE_HOLDING;
+    }
+    find();
+    TEST_ASSERT_EQUAL_UINT64(0, found.count);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_errors_between_lines);
+    RUN_TEST(test_noise_is_no_error);
+    RUN_TEST(test_what_load_alone_shows);
+    RUN_TEST(test_runs_that_tell_nothing);
+    return UNITY_END();
+}
