@@ -3,14 +3,29 @@
 
 #include <math.h>
 
+/* The first entry of column j of U that is in row k or behind it; rows ascend within a column. */
+static int64_t entry_from(const hci_harmonic_system *s, size_t j, size_t k)
+{
+    int64_t low = s->u.column_start[j], high = s->u.column_start[j + 1];
+    while (low < high) {
+        const int64_t middle = low + (high - low) / 2;
+        if ((size_t)s->u.row[middle] < k)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
 /* Row k of U, times a factor and scaled, into a row of the program; returns h there. */
 static double system_row(const hci_limit_build *b, size_t k, double factor, double *row)
 {
     const hci_harmonic_system *s = b->of->field.system;
     const double scale = factor * b->of->scale_A / b->of->scale_Nm;
-    for (size_t j = 0; j < s->unknowns; ++j)
-        for (int64_t e = s->u.column_start[j]; e < s->u.column_start[j + 1]; ++e)
-            if ((size_t)s->u.row[e] == k) row[j] = scale * s->u.value[e];
+    for (size_t j = 0; j < s->unknowns; ++j) {
+        const int64_t e = entry_from(s, j, k);
+        if (e < s->u.column_start[j + 1] && (size_t)s->u.row[e] == k) row[j] = scale * s->u.value[e];
+    }
     return factor * (b->of->field.mean_Nm * s->h[k] + s->h[s->rows + k]) / b->of->scale_Nm;
 }
 
@@ -23,9 +38,10 @@ static bool has_mean_row(const hci_harmonic_system *s)
  * all currents, and must not hide the others behind it. */
 static bool is_reached(const hci_harmonic_system *s, size_t k, size_t rows)
 {
-    const size_t entries = (size_t)s->u.column_start[s->unknowns];
-    for (size_t e = 0; e < entries; ++e)
-        if ((size_t)s->u.row[e] >= k && (size_t)s->u.row[e] < k + rows) return true;
+    for (size_t j = 0; j < s->unknowns; ++j) {
+        const int64_t e = entry_from(s, j, k);
+        if (e < s->u.column_start[j + 1] && (size_t)s->u.row[e] < k + rows) return true;
+    }
     return false;
 }
 
