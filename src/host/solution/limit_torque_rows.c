@@ -98,6 +98,25 @@ static void add_torque_row(hci_limit_build *b, size_t k)
     if (row) row[b->n] = system_row(b, k, 1.0, row);
 }
 
+/* Whether the torque of the cone added last, whatever the currents within the distance from the centre, stays
+ * below what an order is to exceed that counts. */
+static bool is_idle(const hci_limit_build *b, size_t head)
+{
+    const hci_limit_program *p = b->of;
+    double square = 0.0, steepest = 0.0;
+    if (!(p->idle_Nm > 0.0) || b->stage != HCI_STAGE_RIPPLE || b->is_full) return false;
+    for (size_t k = head + 1; k < b->rows; ++k) {
+        const double *row = b->row + k * b->width;
+        double error = -row[b->n];
+        for (size_t j = 0; j < b->coordinates; ++j) {
+            error += row[j] * p->centre[j] / p->scale_A;
+            steepest += row[j] * row[j];
+        }
+        square += error * error;
+    }
+    return sqrt(square) + sqrt(steepest) * p->radius_A / p->scale_A < p->idle_Nm / p->scale_Nm;
+}
+
 /* Its length is known when its rows are there. */
 static size_t begin_cone(hci_limit_build *b)
 {
@@ -121,6 +140,10 @@ void hci_limit_add_torque_cones(hci_limit_build *b)
         add_torque_row(b, k);
         add_torque_row(b, k + 1);
         b->cone[b->cones - 1] = b->rows - head;
+        if (b->cones > none + 1 && is_idle(b, head)) {
+            b->rows = head;
+            --b->cones;
+        }
     }
 }
 

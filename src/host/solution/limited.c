@@ -25,14 +25,18 @@ static hci_status out_of_memory(hci_note *note)
     return hci_note_memory(note, NULL, "solving within limits");
 }
 
+static bool is_same(hci_component a, hci_component b)
+{
+    return a.sequence == b.sequence && fabs(a.order - b.order) < HCI_ORDER_TOLERANCE;
+}
+
 /* Coordinates of the answer without limits on the set, as far as it has them. */
 static void start(const hci_wishes *w, const hci_answer *a, double *x)
 {
     const double mean_Nm = hci_target_mean_Nm(w->of->options->target);
     for (size_t k = 0; k < w->set.count; ++k)
         for (size_t j = 0; j < a->set.count; ++j)
-            if (a->set.component[j].sequence == w->set.component[k].sequence &&
-                fabs(a->set.component[j].order - w->set.component[k].order) < HCI_ORDER_TOLERANCE)
+            if (is_same(a->set.component[j], w->set.component[k]))
                 for (size_t part = 0; part < 2; ++part)
                     x[2 * k + part] = hci_coordinate(a->x, 2 * a->set.count, mean_Nm, 2 * j + part);
 }
@@ -211,6 +215,25 @@ static bool is_worth_more(const hci_wishes *w, const hci_answer *a)
            !(w->of->solution->minimised_Nm > share * w->program.scale_Nm);
 }
 
+/* w->x: the best currents of all components. Where fewer did not come to rest by themselves, from theirs on.
+ */
+static hci_status find_beside(hci_wishes *w, const hci_wishes *cut, const hci_answer *a, hci_note *note)
+{
+    double *x;
+    hci_status status;
+    if (!cut->is_bounded) return find(w, a, note);
+    x = hci_memory_new(2 * w->set.count, sizeof *x);
+    if (!x) return out_of_memory(note);
+    for (size_t k = 0; k < w->set.count; ++k)
+        for (size_t j = 0; j < cut->set.count; ++j)
+            if (is_same(w->set.component[k], cut->set.component[j]))
+                memcpy(x + 2 * k, cut->x + 2 * j, 2 * sizeof *x);
+    w->is_bounded = true;
+    status = hci_limited_path_follow(w, x, note);
+    hci_memory_free(x);
+    return status;
+}
+
 /* On all components up to the top order of the currents without limits; `cut` where that finds nothing
  * better.
  */
@@ -226,7 +249,7 @@ static hci_status take_better(hci_wishes *cut, const hci_solution *without, hci_
         return take(cut, without, a, note);
     }
     if (!status) status = hci_wishes_begin(&w, note);
-    if (!status) status = find(&w, a, note);
+    if (!status) status = find_beside(&w, cut, a, note);
     if (!status) status = merit_of(&w, &merit, note);
     if (!status && hci_limit_merit_less(&merit, &before, w.program.scale_Nm))
         status = take(&w, without, a, note);

@@ -28,6 +28,8 @@ enum {
 #define HELD          0.25 /* share of the promised gain that a step must make for a longer one */
 #define SETTLING      1e-2 /* the same for the last step, which brings peaks within their limits */
 #define POLISH        0.1  /* of that distance, for each further step */
+#define FIRST_BOUND   5e-2 /* distance as a share of the currents that fewer components have led to */
+#define IDLE          0.5  /* of the worst order: another that stays below that acts on no step */
 #define LEAST_SHARE   0.1  /* of the way to an answer */
 #define SHRINK        0.3
 #define AFTER_FAILURE 0.1 /* the same after a step that rounding spoils */
@@ -86,6 +88,13 @@ static hci_status waves_of(const hci_wishes *w, const double *x, hci_wave_list *
     return HCI_OK;
 }
 
+/* Whether orders that are far below the worst of the best answer can be left out of a step. */
+static bool has_idle_orders(const path *p)
+{
+    return p->best && p->radius_A > 0.0 && p->wishes->is_coarse &&
+           p->wishes->program.minimise == HCI_MINIMISE_WORST;
+}
+
 /* The wishes with torque and voltage made linear at p->from. */
 static hci_status step(const path *p, hci_note *note)
 {
@@ -94,6 +103,7 @@ static hci_status step(const path *p, hci_note *note)
     hci_status status = waves_of(w, p->from, &w->current, note);
     w->program.centre = p->from;
     w->program.radius_A = p->radius_A;
+    w->program.idle_Nm = has_idle_orders(p) ? IDLE * p->merit.ripple_Nm : 0.0;
     if (!status && !hci_task_is_linear(t))
         status = hci_task_linearise(t, w->current.wave, w->current.count, w->of->at, note);
     return status ? status : hci_wishes_meet(w, note);
@@ -388,12 +398,28 @@ static bool is_linear(const hci_wishes *w)
     return hci_task_is_linear(w->of->task) && !(e && e->count > 0 && w->of->bounds->line_V < HUGE_VAL);
 }
 
+/* From currents that stand for a best answer, within a share of them: where fewer components did not come to
+ * rest by themselves, more do not either. */
+static hci_status begin_bounded(path *p, hci_note *note)
+{
+    bool ignored;
+    hci_memory_free(p->wishes->x);
+    p->wishes->x = hci_memory_new(p->n, sizeof *p->wishes->x);
+    if (!p->wishes->x) return out_of_memory(note);
+    memcpy(p->wishes->x, p->from, p->n * sizeof *p->from);
+    p->radius_A = FIRST_BOUND * length(p, p->from);
+    p->promised_Nm = HUGE_VAL;
+    p->wishes->is_hard = p->wishes->program.has_mean = true;
+    return judge(p, &ignored, note);
+}
+
 static hci_status iterate(path *p, hci_note *note)
 {
     hci_solution *s = p->wishes->of->solution;
     hci_status status = hci_anderson_reset(&p->mixing, p->n) ? out_of_memory(note) : HCI_OK;
     int k = 0;
     p->change = p->least_change = HUGE_VAL;
+    if (!status && p->wishes->is_bounded) status = begin_bounded(p, note);
     p->wishes->is_coarse = true;
     p->share = 1.0;
     for (; k < MOST_STEPS && goes_on(p) && !status; ++k)
@@ -401,6 +427,7 @@ static hci_status iterate(path *p, hci_note *note)
     s->newton_steps += (size_t)k;
     s->newton_converged = k < MOST_STEPS;
     s->newton_change = p->change;
+    p->wishes->is_bounded = p->radius_A > 0.0;
     return status;
 }
 

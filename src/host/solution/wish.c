@@ -73,6 +73,7 @@ static hci_status add_peaks(hci_wishes *l, hci_limit_stage stage, const hci_limi
  * times, since they are kept for the next step. */
 static int rounds_of(const hci_wishes *l)
 {
+    if (l->is_coarse && l->program.radius_A > 0.0) return 1;
     return l->is_coarse ? COARSE_ROUNDS : MOST_ROUNDS;
 }
 
