@@ -413,6 +413,11 @@ static hci_status begin_bounded(path *p, hci_note *note)
     return judge(p, &ignored, note);
 }
 
+static bool has_steps(const path *p, int made)
+{
+    return made < MOST_STEPS && p->wishes->steps < HCI_LIMITED_MOST_STEPS;
+}
+
 static hci_status iterate(path *p, hci_note *note)
 {
     hci_solution *s = p->wishes->of->solution;
@@ -422,10 +427,11 @@ static hci_status iterate(path *p, hci_note *note)
     if (!status && p->wishes->is_bounded) status = begin_bounded(p, note);
     p->wishes->is_coarse = true;
     p->share = 1.0;
-    for (; k < MOST_STEPS && goes_on(p) && !status; ++k)
+    for (; has_steps(p, k) && goes_on(p) && !status; ++k, ++p->wishes->steps)
         status = advance(p, note);
+    p->wishes->is_ended = p->wishes->is_ended || (!has_steps(p, k) && goes_on(p));
     s->newton_steps += (size_t)k;
-    s->newton_converged = k < MOST_STEPS;
+    s->newton_converged = !p->wishes->is_ended;
     s->newton_change = p->change;
     p->wishes->is_bounded = p->radius_A > 0.0;
     return status;
