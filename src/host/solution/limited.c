@@ -233,23 +233,12 @@ static void tell_end(const hci_wishes *w)
                  w->steps);
 }
 
-/* w->x: the best currents of all components. Where fewer did not come to rest by themselves, from theirs on.
+/* w->x: the best currents of all components. Where fewer did not come to rest by themselves, more hardly do.
  */
 static hci_status find_beside(hci_wishes *w, const hci_wishes *cut, const hci_answer *a, hci_note *note)
 {
-    double *x;
-    hci_status status;
-    if (!cut->is_bounded) return find(w, a, note);
-    x = hci_memory_new(2 * w->set.count, sizeof *x);
-    if (!x) return out_of_memory(note);
-    for (size_t k = 0; k < w->set.count; ++k)
-        for (size_t j = 0; j < cut->set.count; ++j)
-            if (is_same(w->set.component[k], cut->set.component[j]))
-                memcpy(x + 2 * k, cut->x + 2 * j, 2 * sizeof *x);
-    w->is_bounded = true;
-    status = hci_limited_path_follow(w, x, note);
-    hci_memory_free(x);
-    return status;
+    w->is_bounded = cut->is_bounded;
+    return find(w, a, note);
 }
 
 /* On all components up to the top order of the currents without limits; `cut` where that finds nothing

@@ -28,7 +28,6 @@ enum {
 #define HELD          0.25 /* share of the promised gain that a step must make for a longer one */
 #define SETTLING      1e-2 /* the same for the last step, which brings peaks within their limits */
 #define POLISH        0.1  /* of that distance, for each further step */
-#define FIRST_BOUND   5e-2 /* distance as a share of the currents that fewer components have led to */
 #define IDLE          0.5  /* of the worst order: another that stays below that acts on no step */
 #define LEAST_SHARE   0.1  /* of the way to an answer */
 #define SHRINK        0.3
@@ -54,6 +53,7 @@ typedef struct {
     double change, radius_A; /* change of the last step as a share; 0: not bounded */
     double share, least_change;
     double promised_Nm; /* less ripple, by what is linear, of the last step within a bound */
+    int patience;       /* steps without better torque or half of the change after which it is bounded */
     int idle, halved;   /* steps since the least change was halved; how often the first currents were */
     int slow;           /* steps within a bound since one made more of the torque than LEFT */
     double tried_A;     /* bound of the step that is being corrected, see correct; 0: none is */
@@ -215,7 +215,7 @@ static bool is_restless(path *p, bool is_better)
         p->least_change = p->change;
         p->idle = 0;
     }
-    return p->idle > PATIENCE;
+    return p->idle > p->patience;
 }
 
 /* A step that was not better may have gone the right way, with an error of the square of its length: one
@@ -398,21 +398,6 @@ static bool is_linear(const hci_wishes *w)
     return hci_task_is_linear(w->of->task) && !(e && e->count > 0 && w->of->bounds->line_V < HUGE_VAL);
 }
 
-/* From currents that stand for a best answer, within a share of them: where fewer components did not come to
- * rest by themselves, more do not either. */
-static hci_status begin_bounded(path *p, hci_note *note)
-{
-    bool ignored;
-    hci_memory_free(p->wishes->x);
-    p->wishes->x = hci_memory_new(p->n, sizeof *p->wishes->x);
-    if (!p->wishes->x) return out_of_memory(note);
-    memcpy(p->wishes->x, p->from, p->n * sizeof *p->from);
-    p->radius_A = FIRST_BOUND * length(p, p->from);
-    p->promised_Nm = HUGE_VAL;
-    p->wishes->is_hard = p->wishes->program.has_mean = true;
-    return judge(p, &ignored, note);
-}
-
 static bool has_steps(const path *p, int made)
 {
     return made < MOST_STEPS && p->wishes->steps < HCI_LIMITED_MOST_STEPS;
@@ -424,7 +409,7 @@ static hci_status iterate(path *p, hci_note *note)
     hci_status status = hci_anderson_reset(&p->mixing, p->n) ? out_of_memory(note) : HCI_OK;
     int k = 0;
     p->change = p->least_change = HUGE_VAL;
-    if (!status && p->wishes->is_bounded) status = begin_bounded(p, note);
+    p->patience = p->wishes->is_bounded ? 0 : PATIENCE;
     p->wishes->is_coarse = true;
     p->share = 1.0;
     for (; has_steps(p, k) && goes_on(p) && !status; ++k, ++p->wishes->steps)

@@ -32,7 +32,8 @@ typedef struct {
     bool is_coarse; /* the torque is still being made linear: peaks may stay for the next step */
     bool is_far;    /* and so far off that the solver need not be precise */
     bool is_hard;   /* the torque of the last step could not be as wanted */
-    bool is_bounded; /* in: begin within a distance; out: whether the torque was made linear within one */
+    bool is_bounded; /* in: the steps are hardly to come to rest; out: whether they did not, and were bounded
+                      */
     bool is_kept;    /* the ripple of kept_Nm is there, and less copper is no reason to leave it */
     double kept_Nm;
     hci_limit_optimum cost; /* of the stage that says what limits cost */
