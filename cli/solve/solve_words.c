@@ -184,7 +184,8 @@ static const char *name_of(const hci_solution *s, const hci_limit *l)
     if (l->kind == HCI_LIMIT_RMS) return l->phase < 0 ? "rms current" : RMS[l->phase];
     if (is_loss(s, l)) return "copper loss";
     if (l->kind != HCI_LIMIT_VOLTAGE) return "mean of i_a² + i_b² + i_c²";
-    return l->of_phases ? "2 × phase voltage" : "line voltage";
+    static const char *const VOLTAGE[] = {"line voltage", "2 × phase voltage", "√3 × voltage vector"};
+    return VOLTAGE[l->modulation];
 }
 
 static const char *unit_of(const hci_solution *s, const hci_limit *l)

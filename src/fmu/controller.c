@@ -79,7 +79,7 @@ static void set_loop(hci_fmu_model *m)
     pi->filter = VALUE(FILTER);
     pi->decoupled = d->decoupled;
     pi->delay_steps = d->delay_steps;
-    pi->sinusoidal = d->sinusoidal;
+    pi->modulation = d->modulation;
     pi->dead_time = (hci_dead_time){VALUE(DEAD_TIME_VOLTAGE), VALUE(DEAD_TIME_CROSSING)};
 }
 

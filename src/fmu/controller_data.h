@@ -15,7 +15,8 @@ typedef struct {
     double step_s;            /* in which delays are counted */
     unsigned every;           /* steps of a sample */
     unsigned delay_steps;     /* from a sample to the use of its voltage */
-    bool decoupled, sinusoidal;
+    bool decoupled;
+    hci_modulation modulation;
 } hci_fmu_controller_data;
 
 extern const hci_fmu_controller_data hci_fmu_controller;

@@ -281,6 +281,12 @@ says 'bare.csv nor the machine has `resistance`: whether the loop is stable is n
 sed 's/space_vector/sinusoidal/' $drive >"$work/sinusoidal.csv"
 run 0 solve data/machine_a --target data/scenarios/02/target.csv --auto --drive "$work/sinusoidal.csv" --speed 1500
 says 'the voltage limit is the 50 V that the drive reaches in each phase' 'limit +2 × phase voltage [89][0-9.]* of 100 V'
+sed 's/space_vector/circle/' $drive >"$work/circle.csv"
+run 0 solve data/machine_a --target data/scenarios/02/target.csv --auto --drive "$work/circle.csv" --speed 1800 -o "$work/in_circle"
+says 'the voltage limit is a vector of 57.74 V' 'limit +√3 × voltage vector [0-9.]* of 100 V'
+run 0 simulate data/machine_a --table "$work/in_circle" --drive "$work/circle.csv" --speeds 1800,2200 -q -o "$work/circle_speeds"
+run 0 simulate data/machine_a --table "$work/in_circle" --drive $drive --speeds 1800,2200 -q -o "$work/hexagon_speeds"
+check "a circle needs no more dc link than the hexagon around it" awk -F, 'FNR == NR { if (/feedforward/) needed[$1] = $9; next } /feedforward/ && needed[$1] <= $9 { bad = 1 } END { exit bad }' "$work/circle_speeds/speeds.csv" "$work/hexagon_speeds/speeds.csv"
 cp -r data/machine_a "$work/linked"
 printf 'resistance,0.1,ohm,t\ninductance_d,0.5,mH,t\ninductance_q,0.5,mH,t\ndc_link_voltage,120,V,t\n' >>"$work/linked/machine.csv"
 grep -vE '^(resistance|inductance)' $drive >"$work/linked.csv"

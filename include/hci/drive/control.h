@@ -68,8 +68,8 @@ typedef struct {
     /* Steps from a sample to the use of its voltage, at most those of a sample: all of them where a PWM unit
      * is loaded once a period. */
     unsigned delay_steps;
-    bool sinusoidal;         /* no zero sequence: |phase voltage| <= dc link/2, in place of the hexagon */
-    hci_dead_time dead_time; /* what it adds against the inverter's, by the measured current; 0: nothing */
+    hci_modulation modulation; /* which voltages there are */
+    hci_dead_time dead_time;   /* what it adds against the inverter's, by the measured current; 0: nothing */
 } hci_current_pi;
 
 /* What a PI current control keeps from sample to sample. */

@@ -141,6 +141,21 @@ double hci_inverter_average(double dc_link_V, double v[2]);
 /* The same where the modulation adds no zero sequence: the largest |phase voltage| is half the dc link. */
 double hci_inverter_sinusoidal(double dc_link_V, double v[2]);
 
+/* The same where the control keeps the vector in the circle within the hexagon, whatever its direction: the
+ * amplitude of a phase is at most dc_link_V/√3. */
+double hci_inverter_circle(double dc_link_V, double v[2]);
+
+/* Which voltages a modulation reaches. */
+typedef enum {
+    HCI_MODULATION_SPACE_VECTOR, /* with the best zero sequence: line voltages up to the dc link, the hexagon
+                                  */
+    HCI_MODULATION_SINUSOIDAL,   /* without: phase voltages up to half the dc link */
+    HCI_MODULATION_CIRCLE        /* the circle within the hexagon */
+} hci_modulation;
+
+/* That of the three which the modulation is. */
+double hci_inverter_limit(hci_modulation modulation, double dc_link_V, double v[2]);
+
 /* Dead time: while both switches of a leg are open the current chooses the rail that is against it. Over a
  * period of the PWM this is on average −voltage_V·sat(i/crossing_A) for each phase, sat(x) = x limited to
  * −1 … 1. */

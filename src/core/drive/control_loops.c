@@ -93,8 +93,7 @@ static void turned(const double x[2], double angle_rad, double y[2])
 /* As much of the voltage as the modulation can give. Returns the factor. */
 static double limit_voltage(const hci_control *control, double v[2])
 {
-    return control->current.sinusoidal ? hci_inverter_sinusoidal(control->dc_link_V, v)
-                                       : hci_inverter_average(control->dc_link_V, v);
+    return hci_inverter_limit(control->current.modulation, control->dc_link_V, v);
 }
 
 /* What the PI sees in place of reference − current: reference − filtered current. */

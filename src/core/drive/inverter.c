@@ -34,6 +34,24 @@ double hci_inverter_sinusoidal(double dc_link_V, double v[2])
     return factor;
 }
 
+double hci_inverter_circle(double dc_link_V, double v[2])
+{
+    /* An amplitude A of the phases is a vector of √(3/2)·A in the plane. */
+    const double size_V = hypot(v[0], v[1]), most_V = dc_link_V / sqrt(2.0);
+    if (!(size_V > most_V)) return 1.0;
+    const double factor = most_V / size_V;
+    v[0] *= factor;
+    v[1] *= factor;
+    return factor;
+}
+
+double hci_inverter_limit(hci_modulation modulation, double dc_link_V, double v[2])
+{
+    if (modulation == HCI_MODULATION_SINUSOIDAL) return hci_inverter_sinusoidal(dc_link_V, v);
+    if (modulation == HCI_MODULATION_CIRCLE) return hci_inverter_circle(dc_link_V, v);
+    return hci_inverter_average(dc_link_V, v);
+}
+
 /* sat(i/crossing), with the sign of i where nothing is between. */
 static double saturated(double i_A, double crossing_A)
 {

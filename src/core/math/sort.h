@@ -1,4 +1,4 @@
-/* Heap sort in place, without a heap in the other sense: the C library's qsort may allocate. */
+/* Sorting in place: the C library's qsort may allocate. Quicksort, and heap sort where that divides badly. */
 #ifndef HCI_SRC_CORE_MATH_SORT_H
 #define HCI_SRC_CORE_MATH_SORT_H
 

@@ -133,6 +133,17 @@ void hci_turn_samples_release(hci_turn_samples *x)
     memset(x, 0, sizeof *x);
 }
 
+/* The dc link that phase voltages take. */
+static double link_of(hci_modulation modulation, const double abc[3])
+{
+    const double high = fmax(abc[0], fmax(abc[1], abc[2])), low = fmin(abc[0], fmin(abc[1], abc[2]));
+    double plane[2];
+    if (modulation == HCI_MODULATION_SINUSOIDAL) return 2.0 * fmax(high, -low);
+    if (modulation == HCI_MODULATION_SPACE_VECTOR) return high - low;
+    hci_plane_from_abc(abc, plane);
+    return sqrt(2.0) * hypot(plane[0], plane[1]);
+}
+
 double hci_turn_samples_dc_link_V(const hci_turn_samples *x, double resistance_ohm, hci_modulation modulation,
                                   double speed_rad_per_s)
 {
@@ -145,8 +156,7 @@ double hci_turn_samples_dc_link_V(const hci_turn_samples *x, double resistance_o
                                speed_rad_per_s * x->value[HCI_TURN_VOLTAGE + 1][k]};
         double abc[3];
         hci_clarke_inverse(hci_park_inverse(v, theta), abc);
-        const double high = fmax(abc[0], fmax(abc[1], abc[2])), low = fmin(abc[0], fmin(abc[1], abc[2]));
-        most = fmax(most, modulation == HCI_MODULATION_SINUSOIDAL ? 2.0 * fmax(high, -low) : high - low);
+        most = fmax(most, link_of(modulation, abc));
     }
     return most;
 }

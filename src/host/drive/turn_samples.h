@@ -22,8 +22,8 @@ hci_status hci_turn_samples_make(const hci_machine_model *machine, const hci_mac
                                  const hci_loop_level *level, hci_turn_samples *samples, hci_note *note);
 void hci_turn_samples_release(hci_turn_samples *samples);
 
-/* Largest line voltage (space_vector), or twice the largest phase voltage (sinusoidal), of R i + ω v over the
- * turn: what the dc link has to be. speed: electrical. */
+/* Largest line voltage (space_vector), twice the largest phase voltage (sinusoidal) or √3 times the largest
+ * amplitude (circle), of R i + ω v over the turn: what the dc link has to be. speed: electrical. */
 double hci_turn_samples_dc_link_V(const hci_turn_samples *samples, double resistance_ohm,
                                   hci_modulation modulation, double speed_rad_per_s);
 

@@ -127,6 +127,10 @@ void hci_fmu_controller_describe(const hci_fmu_controller_model *m, hci_fmu_desc
 
 /* ---- its code ---- */
 
+static const char *const MODULATION[] = {[HCI_MODULATION_SPACE_VECTOR] = "HCI_MODULATION_SPACE_VECTOR",
+                                         [HCI_MODULATION_SINUSOIDAL] = "HCI_MODULATION_SINUSOIDAL",
+                                         [HCI_MODULATION_CIRCLE] = "HCI_MODULATION_CIRCLE"};
+
 void hci_fmu_controller_code(const hci_fmu_controller_model *m, hci_long_text *text)
 {
     const hci_drive_data *drive = m->request->drive;
@@ -143,5 +147,5 @@ void hci_fmu_controller_code(const hci_fmu_controller_model *m, hci_long_text *t
     hci_long_text_add(
         text, ", /* step_s */\n    %du, %uu, /* steps of a sample, of the delay */\n    %s, %s\n};\n",
         STEPS_OF_A_SAMPLE, m->delay_steps, drive->decoupling != HCI_DECOUPLING_NONE ? "true" : "false",
-        drive->modulation == HCI_MODULATION_SINUSOIDAL ? "true" : "false");
+        MODULATION[drive->modulation]);
 }

@@ -132,8 +132,8 @@ static hci_status gradient_waves(const samples *s, hci_wave_list *out, hci_note 
     for (size_t k = 0; k < s->count / 2; ++k) {
         const double order = (double)k / (double)s->turns;
         const size_t mirror = s->count - k;
-        out->wave[n++] = (hci_wave){order, 1, -scale * b[k], scale * a[k]};
         if (k > 0) out->wave[n++] = (hci_wave){order, -1, scale * b[mirror], scale * a[mirror]};
+        out->wave[n++] = (hci_wave){order, 1, -scale * b[k], scale * a[k]};
     }
     out->count = hci_waves_join(out->wave, n, HCI_FFT_FLOOR);
     return HCI_OK;

@@ -112,7 +112,7 @@ static void set_current_pi(const hci_setup_task *b)
     set_gains(s, hci_value_or(s->current_kp_ohm, bandwidth_per_s * mean_H),
               hci_value_or(s->current_ki_V_per_As, bandwidth_per_s * b->machine->resistance_ohm), control);
     control->current.decoupled = hci_value_or(s->decoupling, 1.0) > 0.5;
-    control->current.sinusoidal = b->loop && b->loop->sinusoidal;
+    control->current.modulation = b->loop ? b->loop->modulation : HCI_MODULATION_SPACE_VECTOR;
     if (b->loop && b->loop->known) control->table = b->loop->known;
     set_dead_time(b);
 }

@@ -136,9 +136,8 @@ static hci_status run(grid *g, const hci_machine_data *machine, hci_remedy remed
     fill_scenario(g, speed_rad_per_s, &scenario);
     watch.duration_s = scenario.duration_s;
     start_code(g, remedy, speed_rad_per_s, &code);
-    const hci_simulate_loop loop = {{hci_table_code_at, &code},
-                                    &g->known.table,
-                                    g->request->drive->modulation == HCI_MODULATION_SINUSOIDAL};
+    const hci_simulate_loop loop = {
+        {hci_table_code_at, &code}, &g->known.table, g->request->drive->modulation};
     const hci_effects none = {NULL, 0};
     const hci_simulate_options options = {
         .effects = g->request->effects ? g->request->effects : &none, .loop = &loop, .observer = &observer};

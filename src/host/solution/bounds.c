@@ -92,7 +92,7 @@ static void take_voltage(const hci_machine_data *m, const hci_solve_options *o, 
         !l->ignore_ratings && is_given(m->dc_link_voltage_V) && !is_given(o->limit_voltage_V) && has_speed;
     const double link_V = declared ? m->dc_link_voltage_V : o->limit_voltage_V;
     b->voltage_is_declared = declared;
-    b->sinusoidal = l->sinusoidal;
+    b->modulation = l->modulation;
     b->line_V_per_V = 1.0 - l->voltage_reserve - 2.0 * l->dead_time_s * l->pwm_frequency_Hz;
     b->line_V = is_given(link_V) ? b->line_V_per_V * link_V : HUGE_VAL;
 }
@@ -137,7 +137,7 @@ static bool is_driven(const hci_bounds *b, int pair)
 bool hci_bounds_drive_pair(const hci_bounds *b, int pair)
 {
     if (!(is_driven(b, 0) || is_driven(b, 1) || is_driven(b, 2))) return true;
-    return b->sinusoidal ? b->current_A[pair] > 0.0 : is_driven(b, pair);
+    return b->modulation == HCI_MODULATION_SINUSOIDAL ? b->current_A[pair] > 0.0 : is_driven(b, pair);
 }
 
 bool hci_bounds_are_alike(const hci_bounds *b)

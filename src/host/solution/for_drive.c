@@ -38,7 +38,13 @@ static void remark_voltage(double link_V, const hci_solve_limits *limits, hci_no
     const double lost = limits->voltage_reserve + 2.0 * limits->dead_time_s * limits->pwm_frequency_Hz;
     const double left_V = link_V * (1.0 - lost);
     const char *less = lost > 0.0 ? ", without dead time and reserve" : "";
-    if (limits->sinusoidal)
+    if (limits->modulation == HCI_MODULATION_CIRCLE)
+        hci_note_add(remark,
+                     "the voltage limit is a vector of %.4g V, the amplitude of a phase, which the drive "
+                     "reaches in every "
+                     "direction: its dc link%s over the root of 3",
+                     left_V / sqrt(3.0), less);
+    else if (limits->modulation == HCI_MODULATION_SINUSOIDAL)
         hci_note_add(remark,
                      "the voltage limit is the %.4g V that the drive reaches in each phase, half of its dc "
                      "link%s",
@@ -56,7 +62,7 @@ static hci_status take_loop(const hci_drive_data *drive, hci_machine_data *machi
     const hci_status status = hci_drive_check_loop(drive, machine, o->speed_rad_per_s, remark, note);
     if (status) return status;
     hci_drive_complete(drive, machine);
-    o->limits.sinusoidal = drive->modulation == HCI_MODULATION_SINUSOIDAL;
+    o->limits.modulation = drive->modulation;
     if (!(o->limit_voltage_V > 0.0) && o->limits.ignore_ratings) return HCI_OK;
     if (o->limit_voltage_V > 0.0) {
         take_dead_time(drive, &o->limits);

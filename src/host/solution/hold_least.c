@@ -16,12 +16,16 @@
 #define MARGIN  0.01         /* of the voltage, for what the control adds */
 #define WORKING 1e-6         /* error of a program that is taken as solved */
 
-enum { ANGLES_PER_PERIOD = 8 };
+enum {
+    ANGLES_PER_PERIOD = 8,
+    DIRECTIONS =
+        4 /* of a circle, from one line voltage on: a polygon of 24 sides leaves it by less than MARGIN */
+};
 
 /* A program under way. Unknowns: currents over scale_A, then high and low over scale_Nm. */
 typedef struct {
     const hci_hold_question *q;
-    size_t coordinates, n, angles, pairs, rows, row;
+    size_t coordinates, n, angles, places, rows, row;
     double scale_A, scale_Nm, delta_rad, inductance_H;
     double *g, *h, *low; /* rows × n by columns, rows, two-sided rows */
 } least;
@@ -170,12 +174,26 @@ static double held(const least *l, size_t j)
     return x / sin(fmin(x, 1.5));
 }
 
+static bool is_circle(const least *l)
+{
+    return l->q->of->bounds->modulation == HCI_MODULATION_CIRCLE;
+}
+
+/* What is limited: a line voltage, or what of the vector is in a direction from that of a line voltage on. */
+static hci_limit_point place_of(const least *l, int place, size_t k)
+{
+    const double first_rad = HCI_PI * (-1.0 / 6.0 + 2.0 / 3.0 * (place / DIRECTIONS)),
+                 further_rad = HCI_PI / 3.0 / DIRECTIONS * (place % DIRECTIONS);
+    if (!is_circle(l)) return (hci_limit_point){HCI_POINT_VOLTAGE, place, angle_of(l, k), 0.0};
+    return (hci_limit_point){HCI_POINT_VECTOR, 0, angle_of(l, k), first_rad + further_rad};
+}
+
 static void add_voltages(least *l, const hci_limit_field *field, double *g)
 {
     const double limit_V = l->q->of->bounds->line_V * (1.0 - MARGIN);
     for (size_t k = 0; k < l->angles; ++k)
-        for (int pair = 0; pair < (int)l->pairs; ++pair) {
-            const hci_limit_point at = {HCI_POINT_VOLTAGE, pair, angle_of(l, k)};
+        for (int place = 0; place < (int)l->places; ++place) {
+            const hci_limit_point at = place_of(l, place, k);
             const double constant = hci_limit_row(field, &at, g) / limit_V;
             for (size_t j = 0; j < l->coordinates; ++j)
                 g[j] *= held(l, j);
@@ -249,8 +267,8 @@ static hci_status fill(least *l, bool is_copper, hci_note *note)
     const hci_limit_field field = {l->q->set, NULL, &model, NULL, NULL, 0.0, of->task->period_turns};
     double *g = hci_memory_new(l->n, sizeof *g);
     hci_status status = g ? HCI_OK : hci_note_memory(note, NULL, "solving");
-    if (!status && l->pairs > 0) status = hci_voltage_model_make(of->machine, of->options, &model, note);
-    if (!status && l->pairs > 0) add_voltages(l, &field, g);
+    if (!status && l->places > 0) status = hci_voltage_model_make(of->machine, of->options, &model, note);
+    if (!status && l->places > 0) add_voltages(l, &field, g);
     if (!status) add_missed(l, g);
     if (!status) add_last(l, is_copper);
     hci_memory_free(g);
@@ -292,7 +310,7 @@ static hci_status minimise(const least *l, const equations *e, const objective *
                                       .a = e->a,
                                       .b = e->b,
                                       .rows = l->rows,
-                                      .two_sided = l->pairs * l->angles,
+                                      .two_sided = l->places * l->angles,
                                       .linear = l->rows - (is_copper ? cone : 0),
                                       .g = l->g,
                                       .h = l->h,
@@ -324,8 +342,8 @@ static hci_status solve(const hci_hold_question *q, bool is_copper, double *x, h
     least l;
     equations e = {0, NULL, NULL};
     begin(q, &l);
-    l.pairs = pairs_of(&l);
-    l.rows = (l.pairs + 4) * l.angles + (is_copper ? l.coordinates + 1 : 1);
+    l.places = pairs_of(&l) * (is_circle(&l) ? DIRECTIONS : 1);
+    l.rows = (l.places + 4) * l.angles + (is_copper ? l.coordinates + 1 : 1);
     l.g = hci_memory_new(l.rows * l.n, sizeof *l.g);
     l.h = hci_memory_new(l.rows, sizeof *l.h);
     l.low = hci_memory_new(l.rows, sizeof *l.low);

@@ -34,7 +34,7 @@ static void add_point(hci_limit_build *b, const hci_limit_point *at, const doubl
         b->low[b->rows - 1] = -1.0 - constant / limit;
         if (sides == 2) row[hci_limit_objective(b)] = -1.0;
         b->limit_of[b->rows - 1] =
-            hci_limit_tag(at->kind == HCI_POINT_VOLTAGE ? HCI_LIMIT_VOLTAGE : HCI_LIMIT_CURRENT, at->phase);
+            hci_limit_tag(at->kind == HCI_POINT_CURRENT ? HCI_LIMIT_CURRENT : HCI_LIMIT_VOLTAGE, at->phase);
     }
 }
 
@@ -63,7 +63,7 @@ static void add_any_point(hci_limit_build *b, const hci_limit_point *at, const d
 static void add_grid(hci_limit_build *b, const hci_limit_grid *grid)
 {
     for (size_t k = 0; k < grid->samples; ++k) {
-        const hci_limit_point at = {grid->kind, grid->phase, grid->step_rad * (double)k};
+        const hci_limit_point at = {grid->kind, grid->phase, grid->step_rad * (double)k, 0.0};
         if (grid->is_row[k]) add_any_point(b, &at, grid->g + k * grid->unknowns, grid->constant[k]);
     }
 }

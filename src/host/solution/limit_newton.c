@@ -70,7 +70,7 @@ static double limit_of(const newton *w, const hci_limit_grid *g)
 /* The row of a quantity over the unknowns and its value, as shares of the limit. */
 static double share_at(const newton *w, const peak *k, double theta_rad, double *row)
 {
-    const hci_limit_point at = {k->at.kind, k->at.phase, theta_rad};
+    const hci_limit_point at = {k->at.kind, k->at.phase, theta_rad, 0.0};
     const double limit = limit_of(w, k->grid), scale = w->near->of->scale_A / limit,
                  constant = hci_limit_row(&w->program.field, &at, row);
     for (size_t j = 0; j < w->coordinates; ++j)
@@ -581,9 +581,11 @@ static void end(newton *w)
     hci_memory_free(w->block);
 }
 
-/* Rows of the torque at angles have two sides that move, which it does not follow. */
+/* Rows of the torque at angles have two sides that move, and those of a circle a direction, which it does not
+ * follow. */
 static bool is_for(const hci_limit_build *b)
 {
+    if (hci_limit_is_circle(&b->of->field)) return false;
     return b->stage == HCI_STAGE_MEAN || (b->stage > HCI_STAGE_MEAN && !hci_limit_is_swing(b));
 }
 

@@ -52,7 +52,7 @@ static void add_plane(const hci_wave *w, double theta_rad, hci_plane_current *su
 
 double hci_limit_of_point(const hci_bounds *bounds, hci_point_kind kind, int phase)
 {
-    return kind == HCI_POINT_VOLTAGE ? bounds->line_V : bounds->current_A[phase];
+    return kind == HCI_POINT_CURRENT ? bounds->current_A[phase] : bounds->line_V;
 }
 
 static double current_row(const hci_limit_field *f, const hci_limit_point *p, double *g)
@@ -65,15 +65,22 @@ static double current_row(const hci_limit_field *f, const hci_limit_point *p, do
     return f->held->sine * pair[0] + f->held->cosine * pair[1];
 }
 
+/* What of a voltage a point limits. */
+static double of_point(const hci_limit_field *f, const hci_limit_point *p, const double v[2])
+{
+    return p->kind == HCI_POINT_VECTOR ? hci_voltage_in_direction(v, p->direction_rad)
+                                       : hci_voltage_of_link(f->voltage, v, p->phase);
+}
+
 /* by_current · x + by_slope · x' */
 static double link_of(const hci_limit_field *f, const hci_linear_voltage *v, const hci_plane_current *i,
-                      int place)
+                      const hci_limit_point *p)
 {
     double sum[2];
     for (int k = 0; k < 2; ++k)
         sum[k] = v->by_current[k] * i->x[0] + v->by_current[2 + k] * i->x[1] + v->by_slope[k] * i->slope[0] +
                  v->by_slope[2 + k] * i->slope[1];
-    return hci_voltage_of_link(f->voltage, sum, place);
+    return of_point(f, p, sum);
 }
 
 static double voltage_row(const hci_limit_field *f, const hci_limit_point *p, double *g)
@@ -85,12 +92,16 @@ static double voltage_row(const hci_limit_field *f, const hci_limit_point *p, do
     hci_voltage_linearise(f->voltage, p->theta_rad, &at, &v);
     for (size_t k = 0; k < f->set->count; ++k) {
         plane_pair(f->set->component[k], p->theta_rad, i);
-        g[2 * k] = link_of(f, &v, &i[0], p->phase);
-        g[2 * k + 1] = link_of(f, &v, &i[1], p->phase);
+        g[2 * k] = link_of(f, &v, &i[0], p);
+        g[2 * k + 1] = link_of(f, &v, &i[1], p);
     }
     if (f->held) add_plane(f->held, p->theta_rad, &held);
-    return hci_voltage_of_link(f->voltage, v.value, p->phase) + link_of(f, &v, &held, p->phase) -
-           link_of(f, &v, &at, p->phase);
+    return of_point(f, p, v.value) + link_of(f, &v, &held, p) - link_of(f, &v, &at, p);
+}
+
+bool hci_limit_is_circle(const hci_limit_field *f)
+{
+    return f->voltage && f->voltage->modulation == HCI_MODULATION_CIRCLE;
 }
 
 bool hci_limit_is_bent(const hci_limit_field *f)
@@ -105,7 +116,8 @@ double hci_limit_link_V(const hci_limit_field *f, int place, double theta_rad, c
     for (size_t k = 0; k < i->count; ++k)
         add_plane(&i->wave[k], theta_rad, &sum);
     hci_voltage_at(f->voltage, theta_rad, &sum, v);
-    return hci_voltage_of_link(f->voltage, v, place);
+    return f->voltage->modulation == HCI_MODULATION_CIRCLE ? hci_voltage_of_circle(v)
+                                                           : hci_voltage_of_link(f->voltage, v, place);
 }
 
 /* Σ over orders above 0 of (U x − h) as a wave at the angle. The weight of the rows is taken out again. */
@@ -135,7 +147,7 @@ static double torque_row(const hci_limit_field *f, const hci_limit_point *p, dou
 double hci_limit_row(const hci_limit_field *field, const hci_limit_point *point, double *g)
 {
     if (point->kind == HCI_POINT_CURRENT) return current_row(field, point, g);
-    if (point->kind == HCI_POINT_VOLTAGE) return voltage_row(field, point, g);
+    if (point->kind != HCI_POINT_TORQUE) return voltage_row(field, point, g);
     return torque_row(field, point, g);
 }
 
@@ -221,7 +233,7 @@ hci_status hci_limit_grid_make(const hci_limit_field *field, hci_limit_grid *gri
     if (!grid->g || !grid->constant || !grid->is_row) return HCI_ERROR_MEMORY;
     for (size_t k = 0; k < grid->samples;
          ++k) { /* a row may write behind its end, which the next one fills */
-        const hci_limit_point p = {grid->kind, grid->phase, grid->step_rad * (double)k};
+        const hci_limit_point p = {grid->kind, grid->phase, grid->step_rad * (double)k, 0.0};
         grid->constant[k] = hci_limit_row(field, &p, grid->g + k * grid->unknowns);
     }
     return HCI_OK;
@@ -264,7 +276,7 @@ static double beyond(const double range[2], double value)
 static double beyond_at(const void *context, double theta_rad)
 {
     const search *s = context;
-    const hci_limit_point p = {s->grid->kind, s->grid->phase, theta_rad};
+    const hci_limit_point p = {s->grid->kind, s->grid->phase, theta_rad, 0.0};
     const double constant = hci_limit_row(s->field, &p, s->row);
     return beyond(s->range, constant + hci_vector_dot(s->grid->unknowns, s->row, s->x));
 }
@@ -276,7 +288,7 @@ static hci_status take_peak(const search *s, size_t k, hci_limit_points *points,
     const double most = hci_peak_refine(&f, s->grid->step_rad, &theta_rad);
     *worst = fmax(*worst, most);
     if (most <= 0.0) return HCI_OK;
-    return hci_limit_points_add(points, (hci_limit_point){s->grid->kind, s->grid->phase, theta_rad});
+    return hci_limit_points_add(points, (hci_limit_point){s->grid->kind, s->grid->phase, theta_rad, 0.0});
 }
 
 hci_status hci_limit_peaks(const hci_limit_field *field, const hci_limit_grid *grid, const double *x,
@@ -297,5 +309,64 @@ hci_status hci_limit_peaks(const hci_limit_field *field, const hci_limit_grid *g
             status = take_peak(&s, k, points, worst);
     }
     hci_memory_free(row);
+    return status;
+}
+
+/* ---- the circle ---- */
+
+/* A search for peaks of the voltage vector: rows in the directions of the plane's axes. */
+typedef struct {
+    const hci_limit_field *field;
+    const double *x;
+    double limit_V, *row;
+} vector_search;
+
+static void vector_at(const vector_search *s, double theta_rad, double v[2])
+{
+    for (int k = 0; k < 2; ++k) {
+        const hci_limit_point p = {HCI_POINT_VECTOR, 0, theta_rad, 0.5 * HCI_PI * k};
+        const double constant = hci_limit_row(s->field, &p, s->row);
+        v[k] = constant + hci_vector_dot(2 * s->field->set->count, s->row, s->x);
+    }
+}
+
+static double vector_beyond(const void *context, double theta_rad)
+{
+    const vector_search *s = context;
+    double v[2];
+    vector_at(s, theta_rad, v);
+    return hypot(v[0], v[1]) - s->limit_V;
+}
+
+static hci_status take_vector(const vector_search *s, double step_rad, double theta_rad,
+                              hci_limit_points *points)
+{
+    const hci_peak_function f = {vector_beyond, s};
+    double v[2];
+    if (!(hci_peak_refine(&f, step_rad, &theta_rad) > 0.0)) return HCI_OK;
+    vector_at(s, theta_rad, v);
+    return hci_limit_points_add(points, (hci_limit_point){HCI_POINT_VECTOR, 0, theta_rad, atan2(v[1], v[0])});
+}
+
+/* √3 times the amplitude, of the line voltages a to b and b to c. */
+static double circle_of_lines(double ab_V, double bc_V)
+{
+    return sqrt(4.0 / 3.0 * (ab_V * ab_V + ab_V * bc_V + bc_V * bc_V));
+}
+
+hci_status hci_limit_vector_peaks(const hci_limit_field *field, const hci_limit_grid grid[2], const double *x,
+                                  double limit_V, hci_limit_points *points)
+{
+    const size_t n = grid->samples;
+    double *over = hci_memory_new(row_room_of(field) + n, sizeof *over);
+    const vector_search s = {field, x, limit_V, over ? over + n : NULL};
+    hci_status status = over ? HCI_OK : HCI_ERROR_MEMORY;
+    for (size_t k = 0; !status && k < n; ++k)
+        over[k] = circle_of_lines(sample_at(&grid[0], x, k), sample_at(&grid[1], x, k)) - limit_V;
+    for (size_t k = 0; !status && k < n; ++k)
+        if (over[k] >= over[(k + n - 1) % n] && over[k] > over[(k + 1) % n] &&
+            over[k] > -2.0 * NEARLY * limit_V)
+            status = take_vector(&s, grid->step_rad, grid->step_rad * (double)k, points);
+    hci_memory_free(over);
     return status;
 }

@@ -8,13 +8,14 @@
 #include "host/solution/voltage.h"
 #include "host/solve/harmonic_system.h"
 
-typedef enum { HCI_POINT_CURRENT, HCI_POINT_VOLTAGE, HCI_POINT_TORQUE } hci_point_kind;
+typedef enum { HCI_POINT_CURRENT, HCI_POINT_VOLTAGE, HCI_POINT_VECTOR, HCI_POINT_TORQUE } hci_point_kind;
 
 /* One quantity at one angle. */
 typedef struct {
     hci_point_kind kind;
     int phase; /* of the current; pair of the line voltage */
     double theta_rad;
+    double direction_rad; /* VECTOR: in which the voltage is limited, in the plane */
 } hci_limit_point;
 
 /* The largest size of a current or voltage. */
@@ -35,11 +36,14 @@ typedef struct {
  * wanted, orders above 0. */
 double hci_limit_row(const hci_limit_field *field, const hci_limit_point *point, double *g);
 
+/* Whether the voltage is limited to a circle. */
+bool hci_limit_is_circle(const hci_limit_field *field);
+
 /* Whether the voltage is not linear in the currents. */
 bool hci_limit_is_bent(const hci_limit_field *field);
 
-/* The true voltage of currents that has to stay within the dc link: a line voltage, or with sinusoidal
- * modulation twice that of a phase. */
+/* The true voltage of currents that has to stay within the dc link: a line voltage, with sinusoidal
+ * modulation twice that of a phase, in the circle √3 times the amplitude. */
 double hci_limit_link_V(const hci_limit_field *field, int place, double theta_rad, const hci_wave_list *i);
 
 /* Points with what was added last behind, and the rows of the first of them. Start with {0}. */
@@ -92,6 +96,11 @@ void hci_limit_grid_thin(hci_limit_grid *grid, const double *x, const double ran
  * HCI_ERROR_MEMORY, without a note. O(samples · unknowns). */
 hci_status hci_limit_peaks(const hci_limit_field *field, const hci_limit_grid *grid, const double *x,
                            const double range[2], hci_limit_points *points, double *worst);
+
+/* The same of the size of the voltage vector beyond limit_V, each with the direction that it has there. grid:
+ * of the first and the second line voltage. */
+hci_status hci_limit_vector_peaks(const hci_limit_field *field, const hci_limit_grid grid[2], const double *x,
+                                  double limit_V, hci_limit_points *points);
 
 /* Coordinates of component k as phase s sees it: a sine of S' and a cosine of C' of its order. turn: out,
  * S' = turn[0] S + turn[1] C, C' = turn[0] C − turn[1] S. */

@@ -27,6 +27,7 @@ typedef struct {
 
     const double *centre; /* coordinates from which x is at most radius_A away, √Σ of squares; 0: no bound */
     double radius_A;
+    double idle_Nm; /* RIPPLE within that distance: orders that cannot exceed it there are left out; 0: none */
 
     double precision;     /* of the solver, relative; 0: as precise as it gets */
     double widened;       /* share by which every limit is wider than asked for */

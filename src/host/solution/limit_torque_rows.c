@@ -3,14 +3,29 @@
 
 #include <math.h>
 
+/* The first entry of column j of U that is in row k or behind it; rows ascend within a column. */
+static int64_t entry_from(const hci_harmonic_system *s, size_t j, size_t k)
+{
+    int64_t low = s->u.column_start[j], high = s->u.column_start[j + 1];
+    while (low < high) {
+        const int64_t middle = low + (high - low) / 2;
+        if ((size_t)s->u.row[middle] < k)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
 /* Row k of U, times a factor and scaled, into a row of the program; returns h there. */
 static double system_row(const hci_limit_build *b, size_t k, double factor, double *row)
 {
     const hci_harmonic_system *s = b->of->field.system;
     const double scale = factor * b->of->scale_A / b->of->scale_Nm;
-    for (size_t j = 0; j < s->unknowns; ++j)
-        for (int64_t e = s->u.column_start[j]; e < s->u.column_start[j + 1]; ++e)
-            if ((size_t)s->u.row[e] == k) row[j] = scale * s->u.value[e];
+    for (size_t j = 0; j < s->unknowns; ++j) {
+        const int64_t e = entry_from(s, j, k);
+        if (e < s->u.column_start[j + 1] && (size_t)s->u.row[e] == k) row[j] = scale * s->u.value[e];
+    }
     return factor * (b->of->field.mean_Nm * s->h[k] + s->h[s->rows + k]) / b->of->scale_Nm;
 }
 
@@ -23,9 +38,10 @@ static bool has_mean_row(const hci_harmonic_system *s)
  * all currents, and must not hide the others behind it. */
 static bool is_reached(const hci_harmonic_system *s, size_t k, size_t rows)
 {
-    const size_t entries = (size_t)s->u.column_start[s->unknowns];
-    for (size_t e = 0; e < entries; ++e)
-        if ((size_t)s->u.row[e] >= k && (size_t)s->u.row[e] < k + rows) return true;
+    for (size_t j = 0; j < s->unknowns; ++j) {
+        const int64_t e = entry_from(s, j, k);
+        if (e < s->u.column_start[j + 1] && (size_t)s->u.row[e] < k + rows) return true;
+    }
     return false;
 }
 
@@ -82,6 +98,25 @@ static void add_torque_row(hci_limit_build *b, size_t k)
     if (row) row[b->n] = system_row(b, k, 1.0, row);
 }
 
+/* Whether the torque of the cone added last, whatever the currents within the distance from the centre, stays
+ * below what an order is to exceed that counts. */
+static bool is_idle(const hci_limit_build *b, size_t head)
+{
+    const hci_limit_program *p = b->of;
+    double square = 0.0, steepest = 0.0;
+    if (!(p->idle_Nm > 0.0) || b->stage != HCI_STAGE_RIPPLE || b->is_full) return false;
+    for (size_t k = head + 1; k < b->rows; ++k) {
+        const double *row = b->row + k * b->width;
+        double error = -row[b->n];
+        for (size_t j = 0; j < b->coordinates; ++j) {
+            error += row[j] * p->centre[j] / p->scale_A;
+            steepest += row[j] * row[j];
+        }
+        square += error * error;
+    }
+    return sqrt(square) + sqrt(steepest) * p->radius_A / p->scale_A < p->idle_Nm / p->scale_Nm;
+}
+
 /* Its length is known when its rows are there. */
 static size_t begin_cone(hci_limit_build *b)
 {
@@ -105,6 +140,10 @@ void hci_limit_add_torque_cones(hci_limit_build *b)
         add_torque_row(b, k);
         add_torque_row(b, k + 1);
         b->cone[b->cones - 1] = b->rows - head;
+        if (b->cones > none + 1 && is_idle(b, head)) {
+            b->rows = head;
+            --b->cones;
+        }
     }
 }
 

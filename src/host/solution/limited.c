@@ -25,14 +25,18 @@ static hci_status out_of_memory(hci_note *note)
     return hci_note_memory(note, NULL, "solving within limits");
 }
 
+static bool is_same(hci_component a, hci_component b)
+{
+    return a.sequence == b.sequence && fabs(a.order - b.order) < HCI_ORDER_TOLERANCE;
+}
+
 /* Coordinates of the answer without limits on the set, as far as it has them. */
 static void start(const hci_wishes *w, const hci_answer *a, double *x)
 {
     const double mean_Nm = hci_target_mean_Nm(w->of->options->target);
     for (size_t k = 0; k < w->set.count; ++k)
         for (size_t j = 0; j < a->set.count; ++j)
-            if (a->set.component[j].sequence == w->set.component[k].sequence &&
-                fabs(a->set.component[j].order - w->set.component[k].order) < HCI_ORDER_TOLERANCE)
+            if (is_same(a->set.component[j], w->set.component[k]))
                 for (size_t part = 0; part < 2; ++part)
                     x[2 * k + part] = hci_coordinate(a->x, 2 * a->set.count, mean_Nm, 2 * j + part);
 }
@@ -118,14 +122,21 @@ static hci_status better(hci_wishes *w, const hci_answer *a, beginning *first, d
     return HCI_OK;
 }
 
+/* Whether the work leaves another beginning. */
+static bool has_steps(const hci_wishes *w)
+{
+    return w->steps + HCI_LIMITED_LEAST_STEPS <= HCI_LIMITED_MOST_STEPS;
+}
+
 /* Whether a second beginning may find more: where the mean falls short of torque that is not linear. */
 static bool may_find_more(const hci_wishes *w)
 {
     bool has_fundamental = false;
     for (size_t k = 0; k < w->set.count; ++k)
         has_fundamental = has_fundamental || is_fundamental(w->set.component[k]);
-    return has_fundamental && w->set.count > 1 && !w->of->task->held && !hci_task_is_linear(w->of->task) &&
-           hci_bounds_are_alike(w->of->bounds) && w->of->solution->limit_cost == HCI_COST_TORQUE;
+    return has_fundamental && has_steps(w) && w->set.count > 1 && !w->of->task->held &&
+           !hci_task_is_linear(w->of->task) && hci_bounds_are_alike(w->of->bounds) &&
+           w->of->solution->limit_cost == HCI_COST_TORQUE;
 }
 
 static hci_status begin_again(hci_wishes *w, const hci_answer *a, double *x, hci_note *note)
@@ -207,8 +218,27 @@ static hci_status take(hci_wishes *w, const hci_solution *without, hci_answer *a
 static bool is_worth_more(const hci_wishes *w, const hci_answer *a)
 {
     const double share = w->program.minimise == HCI_MINIMISE_PEAK_TO_PEAK ? SMALL_SWING : SMALL;
-    return hci_limited_set_is_cut(a, w) && hci_bounds_are_alike(w->of->bounds) && w->program.has_mean &&
-           !(w->of->solution->minimised_Nm > share * w->program.scale_Nm);
+    return has_steps(w) && hci_limited_set_is_cut(a, w) && hci_bounds_are_alike(w->of->bounds) &&
+           w->program.has_mean && !(w->of->solution->minimised_Nm > share * w->program.scale_Nm);
+}
+
+/* The work of an answer is bounded, and these may not be the best currents. */
+static void tell_end(const hci_wishes *w)
+{
+    hci_note_add(&w->of->solution->remark,
+                 "within limits the steps, in which the torque is made linear, ended before they came to "
+                 "rest: these are "
+                 "the best currents of %zu, and others may be better; fewer components (--harmonics) come to "
+                 "rest sooner",
+                 w->steps);
+}
+
+/* w->x: the best currents of all components. Where fewer did not come to rest by themselves, more hardly do.
+ */
+static hci_status find_beside(hci_wishes *w, const hci_wishes *cut, const hci_answer *a, hci_note *note)
+{
+    w->is_bounded = cut->is_bounded;
+    return find(w, a, note);
 }
 
 /* On all components up to the top order of the currents without limits; `cut` where that finds nothing
@@ -218,7 +248,7 @@ static hci_status take_better(hci_wishes *cut, const hci_solution *without, hci_
 {
     const hci_solution first = *cut->of->solution;
     hci_limit_merit merit, before;
-    hci_wishes w = {.of = cut->of};
+    hci_wishes w = {.of = cut->of, .steps = cut->steps};
     hci_status status = merit_of(cut, &before, note);
     if (!status) status = hci_limited_set_choose(a, true, &w, note);
     if (!status && w.set.count > MOST_MORE) {
@@ -226,8 +256,9 @@ static hci_status take_better(hci_wishes *cut, const hci_solution *without, hci_
         return take(cut, without, a, note);
     }
     if (!status) status = hci_wishes_begin(&w, note);
-    if (!status) status = find(&w, a, note);
+    if (!status) status = find_beside(&w, cut, a, note);
     if (!status) status = merit_of(&w, &merit, note);
+    if (!status && w.is_ended && !cut->is_ended) tell_end(&w);
     if (!status && hci_limit_merit_less(&merit, &before, w.program.scale_Nm))
         status = take(&w, without, a, note);
     else if (status != HCI_ERROR_MEMORY) {
@@ -243,6 +274,7 @@ static hci_status solve(hci_wishes *w, hci_answer *a, hci_note *note)
     const hci_solution without = *w->of->solution;
     const hci_status status = find(w, a, note);
     if (status) return status;
+    if (w->is_ended) tell_end(w);
     return is_worth_more(w, a) ? take_better(w, &without, a, note) : take(w, &without, a, note);
 }
 

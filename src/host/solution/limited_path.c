@@ -28,6 +28,7 @@ enum {
 #define HELD          0.25 /* share of the promised gain that a step must make for a longer one */
 #define SETTLING      1e-2 /* the same for the last step, which brings peaks within their limits */
 #define POLISH        0.1  /* of that distance, for each further step */
+#define IDLE          0.5  /* of the worst order: another that stays below that acts on no step */
 #define LEAST_SHARE   0.1  /* of the way to an answer */
 #define SHRINK        0.3
 #define AFTER_FAILURE 0.1 /* the same after a step that rounding spoils */
@@ -52,6 +53,7 @@ typedef struct {
     double change, radius_A; /* change of the last step as a share; 0: not bounded */
     double share, least_change;
     double promised_Nm; /* less ripple, by what is linear, of the last step within a bound */
+    int patience;       /* steps without better torque or half of the change after which it is bounded */
     int idle, halved;   /* steps since the least change was halved; how often the first currents were */
     int slow;           /* steps within a bound since one made more of the torque than LEFT */
     double tried_A;     /* bound of the step that is being corrected, see correct; 0: none is */
@@ -86,6 +88,13 @@ static hci_status waves_of(const hci_wishes *w, const double *x, hci_wave_list *
     return HCI_OK;
 }
 
+/* Whether orders that are far below the worst of the best answer can be left out of a step. */
+static bool has_idle_orders(const path *p)
+{
+    return p->best && p->radius_A > 0.0 && p->wishes->is_coarse &&
+           p->wishes->program.minimise == HCI_MINIMISE_WORST;
+}
+
 /* The wishes with torque and voltage made linear at p->from. */
 static hci_status step(const path *p, hci_note *note)
 {
@@ -94,6 +103,7 @@ static hci_status step(const path *p, hci_note *note)
     hci_status status = waves_of(w, p->from, &w->current, note);
     w->program.centre = p->from;
     w->program.radius_A = p->radius_A;
+    w->program.idle_Nm = has_idle_orders(p) ? IDLE * p->merit.ripple_Nm : 0.0;
     if (!status && !hci_task_is_linear(t))
         status = hci_task_linearise(t, w->current.wave, w->current.count, w->of->at, note);
     return status ? status : hci_wishes_meet(w, note);
@@ -205,7 +215,7 @@ static bool is_restless(path *p, bool is_better)
         p->least_change = p->change;
         p->idle = 0;
     }
-    return p->idle > PATIENCE;
+    return p->idle > p->patience;
 }
 
 /* A step that was not better may have gone the right way, with an error of the square of its length: one
@@ -388,19 +398,27 @@ static bool is_linear(const hci_wishes *w)
     return hci_task_is_linear(w->of->task) && !(e && e->count > 0 && w->of->bounds->line_V < HUGE_VAL);
 }
 
+static bool has_steps(const path *p, int made)
+{
+    return made < MOST_STEPS && p->wishes->steps < HCI_LIMITED_MOST_STEPS;
+}
+
 static hci_status iterate(path *p, hci_note *note)
 {
     hci_solution *s = p->wishes->of->solution;
     hci_status status = hci_anderson_reset(&p->mixing, p->n) ? out_of_memory(note) : HCI_OK;
     int k = 0;
     p->change = p->least_change = HUGE_VAL;
+    p->patience = p->wishes->is_bounded ? 0 : PATIENCE;
     p->wishes->is_coarse = true;
     p->share = 1.0;
-    for (; k < MOST_STEPS && goes_on(p) && !status; ++k)
+    for (; has_steps(p, k) && goes_on(p) && !status; ++k, ++p->wishes->steps)
         status = advance(p, note);
+    p->wishes->is_ended = p->wishes->is_ended || (!has_steps(p, k) && goes_on(p));
     s->newton_steps += (size_t)k;
-    s->newton_converged = k < MOST_STEPS;
+    s->newton_converged = !p->wishes->is_ended;
     s->newton_change = p->change;
+    p->wishes->is_bounded = p->radius_A > 0.0;
     return status;
 }
 

@@ -28,7 +28,8 @@ const char *hci_limit_kind_name(hci_limit_kind kind)
 const char *hci_limit_place_name(const hci_limit *l, int phase)
 {
     static const char *const PHASE[] = {"a", "b", "c"}, *const PAIR[] = {"ab", "bc", "ca"};
-    return (l->kind == HCI_LIMIT_VOLTAGE && !l->of_phases ? PAIR : PHASE)[phase];
+    if (l->kind == HCI_LIMIT_VOLTAGE && l->modulation == HCI_MODULATION_CIRCLE) return "vector";
+    return (l->kind == HCI_LIMIT_VOLTAGE && l->modulation != HCI_MODULATION_SINUSOIDAL ? PAIR : PHASE)[phase];
 }
 
 const char *hci_limit_cost_name(hci_limit_cost cost)
@@ -65,7 +66,7 @@ void hci_limits_list(const hci_bounds *b, hci_solution *s)
     if (b->line_V < HUGE_VAL) {
         hci_limit *l = add_limit(s, HCI_LIMIT_VOLTAGE, -1, b->line_V);
         l->is_declared = b->voltage_is_declared;
-        l->of_phases = b->sinusoidal;
+        l->modulation = b->modulation;
     }
     if (b->mean_square_A2 < HUGE_VAL) add_limit(s, HCI_LIMIT_COPPER, -1, b->mean_square_A2);
 }
@@ -116,6 +117,7 @@ typedef struct {
     const hci_voltage_model *voltage; /* NULL: the current */
     int phase;
     double step_rad;
+    bool is_circle; /* the size of the voltage vector, in place of each phase */
 } curve;
 
 static void plane_of(const hci_solution *s, double theta_rad, hci_plane_current *i)
@@ -145,7 +147,9 @@ static void sizes_at(const curve *c, double theta_rad, double size[3])
         hci_waves_at(c->solution->current.wave, c->solution->current.count, theta_rad, size);
     }
     for (int k = 0; k < 3; ++k)
-        size[k] = fabs(c->voltage ? hci_voltage_of_link(c->voltage, v, k) : size[k]);
+        size[k] = fabs(!c->voltage    ? size[k]
+                       : c->is_circle ? hci_voltage_of_circle(v)
+                                      : hci_voltage_of_link(c->voltage, v, k));
 }
 
 static double size_at(const void *context, double theta_rad)
@@ -216,7 +220,7 @@ static void take_value(hci_limit *l, double value)
 /* Peak and rms currents. value: workspace of 3·samples. */
 static void check_currents(hci_solution *s, size_t samples, double *value)
 {
-    curve c = {s, NULL, 0, 2.0 * HCI_PI * (double)s->period_turns / (double)samples};
+    curve c = {s, NULL, 0, 2.0 * HCI_PI * (double)s->period_turns / (double)samples, false};
     sample(&c, samples, value);
     s->peak_phase_current_A = s->rms_phase_current_A = 0.0;
     for (; c.phase < 3; ++c.phase) {
@@ -243,7 +247,7 @@ static double neutral_at(const void *context, double theta_rad)
 
 static void check_neutral(hci_solution *s, size_t samples)
 {
-    const curve c = {s, NULL, 0, 2.0 * HCI_PI * (double)s->period_turns / (double)samples};
+    const curve c = {s, NULL, 0, 2.0 * HCI_PI * (double)s->period_turns / (double)samples, false};
     const hci_peak_function f = {neutral_at, &c};
     double sum = 0.0, most_A = 0.0, at_rad = 0.0;
     for (size_t k = 0; k < samples; ++k) {
@@ -263,7 +267,7 @@ static void check_neutral(hci_solution *s, size_t samples)
 static double check_link(const hci_voltage_model *v, const hci_bounds *b, bool limited, hci_solution *s,
                          size_t samples, double *value)
 {
-    curve c = {s, v, 0, 2.0 * HCI_PI * (double)s->period_turns / (double)samples};
+    curve c = {s, v, 0, 2.0 * HCI_PI * (double)s->period_turns / (double)samples, false};
     double most_V = 0.0;
     sample(&c, samples, value);
     for (; c.phase < 3; ++c.phase) {
@@ -279,15 +283,32 @@ static double check_link(const hci_voltage_model *v, const hci_bounds *b, bool l
     return most_V;
 }
 
-/* The line voltages; sinusoidal modulation limits those of the phases in their place. */
+/* The same of the vector, which is limited. */
+static void check_circle(const hci_voltage_model *v, hci_solution *s, size_t samples, double *value)
+{
+    const curve c = {s, v, 0, 2.0 * HCI_PI * (double)s->period_turns / (double)samples, true};
+    hci_limit *l = find_limit(s, HCI_LIMIT_VOLTAGE, 0);
+    sample(&c, samples, value);
+    take_value(l, peak_of(&c, samples, l, value));
+}
+
+static bool drives_all(const hci_bounds *b)
+{
+    return hci_bounds_drive_pair(b, 0) && hci_bounds_drive_pair(b, 1) && hci_bounds_drive_pair(b, 2);
+}
+
+/* The line voltages; other modulations limit the phases or the vector in their place. */
 static void check_voltages(const hci_voltage_model *v, const hci_bounds *b, hci_solution *s, size_t samples,
                            double *value)
 {
     hci_voltage_model lines = *v;
     hci_bounds of_lines = *b;
-    lines.sinusoidal = of_lines.sinusoidal = false;
-    if (b->sinusoidal) check_link(v, b, true, s, samples, value);
-    s->peak_line_voltage_V = check_link(&lines, &of_lines, !b->sinusoidal, s, samples, value);
+    const bool of_phases = b->modulation == HCI_MODULATION_SINUSOIDAL,
+               of_vector = b->modulation == HCI_MODULATION_CIRCLE && drives_all(b);
+    lines.modulation = of_lines.modulation = HCI_MODULATION_SPACE_VECTOR;
+    if (of_phases) check_link(v, b, true, s, samples, value);
+    if (of_vector) check_circle(v, s, samples, value);
+    s->peak_line_voltage_V = check_link(&lines, &of_lines, !of_phases && !of_vector, s, samples, value);
 }
 
 static double top_of_voltage(const hci_machine_data *m, const hci_effects *effects)

@@ -50,7 +50,7 @@ hci_status hci_voltage_model_make(const hci_machine_data *m, const hci_solve_opt
                                  .effects = o->effects,
                                  .speed_rad_per_s = o->speed_rad_per_s,
                                  .temperature_C = hci_magnet_temperature_C(o),
-                                 .sinusoidal = o->limits.sinusoidal};
+                                 .modulation = o->limits.modulation};
     fill_mean(m, model->mean_H);
     if (!isnan(m->resistance_ohm) && (!isnan(model->mean_H[0]) || o->speed_rad_per_s == 0.0)) return HCI_OK;
     return hci_note_set(
@@ -200,5 +200,17 @@ double hci_voltage_of_link(const hci_voltage_model *model, const double v[2], in
 {
     double abc[3];
     hci_plane_to_abc(v, abc);
-    return model->sinusoidal ? 2.0 * abc[place] : abc[place] - abc[(place + 1) % 3];
+    return model->modulation == HCI_MODULATION_SINUSOIDAL ? 2.0 * abc[place]
+                                                          : abc[place] - abc[(place + 1) % 3];
+}
+
+/* An amplitude A of the phases is a vector of √(3/2)·A in the plane. */
+double hci_voltage_of_circle(const double v[2])
+{
+    return sqrt(2.0) * hypot(v[0], v[1]);
+}
+
+double hci_voltage_in_direction(const double v[2], double direction_rad)
+{
+    return sqrt(2.0) * (v[0] * cos(direction_rad) + v[1] * sin(direction_rad));
 }

@@ -9,7 +9,7 @@ typedef struct {
     const hci_effects *effects; /* or NULL */
     double speed_rad_per_s, temperature_C;
     double mean_H[3]; /* the constant part of L in the orthonormal plane: αα, αβ, ββ */
-    bool sinusoidal;  /* modulation without a zero sequence */
+    hci_modulation modulation;
 } hci_voltage_model;
 
 /* A current and its derivative by the electrical angle, in the orthonormal plane. */
@@ -37,7 +37,12 @@ void hci_voltage_linearise(const hci_voltage_model *model, double theta_rad, con
                            hci_linear_voltage *v);
 
 /* What has to stay within the dc link, of phase voltages in the plane: v_a − v_b, v_b − v_c or v_c − v_a
- * (place 0, 1, 2), of which the inverter makes any by a zero sequence; without one 2 v_a, 2 v_b or 2 v_c. */
+ * (place 0, 1, 2), of which the inverter makes any by a zero sequence; without one 2 v_a, 2 v_b or 2 v_c. The
+ * circle is within the hexagon of the first. */
 double hci_voltage_of_link(const hci_voltage_model *model, const double v[2], int place);
+
+/* The same of the circle: √3 times the amplitude; and what of it is in a direction of the plane. */
+double hci_voltage_of_circle(const double v[2]);
+double hci_voltage_in_direction(const double v[2], double direction_rad);
 
 #endif

@@ -49,6 +49,26 @@ static bool tells_angles(const hci_wishes *l, const hci_limit_grid *g, const dou
     return g->kind != HCI_POINT_TORQUE || range[1] - range[0] > FLAT * l->program.scale_Nm;
 }
 
+/* The grids of the line voltages where the voltage is limited to a circle and all three are there, else NULL.
+ */
+static const hci_limit_grid *circle_of(const hci_limit_program *p)
+{
+    const hci_limit_grid *first = NULL;
+    size_t count = 0;
+    for (size_t q = p->grids; q-- > 0;)
+        if (p->grid[q].kind == HCI_POINT_VOLTAGE) first = &p->grid[q], ++count;
+    return hci_limit_is_circle(&p->field) && count == 3 ? first : NULL;
+}
+
+/* The peaks of the voltage vector beyond the circle, each as a limit in its direction. */
+static hci_status add_vectors(hci_wishes *l, const hci_limit_optimum *o)
+{
+    hci_limit_program *p = &l->program;
+    const hci_limit_grid *grid = circle_of(p);
+    const double limit_V = p->bounds->line_V * (1.0 + p->widened) * (1.0 - HCI_LIMIT_MARGIN);
+    return grid ? hci_limit_vector_peaks(&p->field, grid, o->x, limit_V, &p->points) : HCI_OK;
+}
+
 /* Adds the peaks of an optimum beyond a limit; *added: how many. */
 static hci_status add_peaks(hci_wishes *l, hci_limit_stage stage, const hci_limit_optimum *o, size_t *added,
                             hci_note *note)
@@ -64,6 +84,7 @@ static hci_status add_peaks(hci_wishes *l, hci_limit_stage stage, const hci_limi
         if (!status && stage >= HCI_STAGE_RIPPLE && tells_angles(l, &p->grid[q], range))
             hci_limit_grid_thin(&p->grid[q], o->x, range, IDLE);
     }
+    if (!status) status = add_vectors(l, o);
     if (stage == HCI_STAGE_FIT) p->widened = 0.0;
     *added = p->points.count - before;
     return status ? out_of_memory(note) : HCI_OK;
@@ -73,6 +94,7 @@ static hci_status add_peaks(hci_wishes *l, hci_limit_stage stage, const hci_limi
  * times, since they are kept for the next step. */
 static int rounds_of(const hci_wishes *l)
 {
+    if (l->is_coarse && l->program.radius_A > 0.0) return 1;
     return l->is_coarse ? COARSE_ROUNDS : MOST_ROUNDS;
 }
 
@@ -98,7 +120,9 @@ static hci_status try_round(hci_wishes *l, hci_limit_stage stage, hci_limit_opti
 static double step_rad(const hci_limit_program *p, const hci_limit_point *at)
 {
     for (size_t q = 0; q < p->grids; ++q)
-        if (p->grid[q].kind == at->kind && p->grid[q].phase == at->phase) return p->grid[q].step_rad;
+        if (p->grid[q].kind == (at->kind == HCI_POINT_VECTOR ? HCI_POINT_VOLTAGE : at->kind) &&
+            p->grid[q].phase == at->phase)
+            return p->grid[q].step_rad;
     return 0.0;
 }
 

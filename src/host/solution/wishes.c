@@ -129,14 +129,24 @@ static bool has_equations(const hci_wishes *l)
     return hci_task_is_linear(l->of->task) || l->system.rows <= l->system.unknowns;
 }
 
+/* Whether the mean need not be looked for: next to currents that have it. */
+static bool is_near_mean(const hci_wishes *l)
+{
+    return l->is_coarse && l->program.radius_A > 0.0 && l->program.has_mean;
+}
+
 /* A mean that is just reached within rounding is not reached. */
 static hci_status solve_ripple(hci_wishes *l, hci_limit_optimum *o, hci_note *note)
 {
     hci_status status = hci_wish_solve(l, HCI_STAGE_RIPPLE, o, note);
     if (!status && o->is_infeasible && l->program.has_mean) {
         hci_memory_free(o->x);
-        l->program.has_mean = false;
-        status = hci_wish_solve(l, HCI_STAGE_RIPPLE, o, note);
+        o->x = NULL;
+        if (is_near_mean(l))
+            status = find_mean(l, note);
+        else
+            l->program.has_mean = false;
+        if (!status) status = hci_wish_solve(l, HCI_STAGE_RIPPLE, o, note);
     }
     if (status || o->is_infeasible || l->is_coarse || o->is_settled) return status;
     return hci_note_set(
@@ -253,7 +263,7 @@ static hci_status after_mean(hci_wishes *l, hci_note *note)
 static hci_status in_turn(hci_wishes *l, hci_note *note)
 {
     hci_note why = {{0}};
-    hci_status status = find_mean(l, &why);
+    hci_status status = is_near_mean(l) ? HCI_OK : find_mean(l, &why);
     if (!status) status = after_mean(l, &why);
     if (status == HCI_ERROR_NUMERIC && l->program.widened > 0.0) {
         l->program.ripple_Nm = NAN;

@@ -39,8 +39,8 @@ static bool is_same(const hci_wishes *l, hci_limit_point one, double shift_rad, 
     const size_t n = 2 * l->set.count;
     double size = 0.0, apart = 0.0;
     for (int k = 0; k < TRIALS; ++k) {
-        const hci_limit_point here = {one.kind, one.phase, 0.1 + 0.83 * k},
-                              there = {one.kind, phase, here.theta_rad + shift_rad};
+        const hci_limit_point here = {one.kind, one.phase, 0.1 + 0.83 * k, 0.0},
+                              there = {one.kind, phase, here.theta_rad + shift_rad, 0.0};
         const double constant = hci_limit_row(&l->program.field, &here, row),
                      other = hci_limit_row(&l->program.field, &there, row + n);
         size = fmax(size, fabs(constant));
@@ -57,13 +57,13 @@ static bool is_same(const hci_wishes *l, hci_limit_point one, double shift_rad, 
 static hci_status find_symmetry(const hci_wishes *l, hci_point_kind kind, int *phases, double *share,
                                 hci_note *note)
 {
-    const hci_limit_point first = {kind, 0, 0.0};
+    const hci_limit_point first = {kind, 0, 0.0, 0.0};
     const double third_rad = 2.0 * HCI_PI / 3.0;
     double *row = hci_memory_new(4 * l->set.count, sizeof *row);
     bool thirds = hci_bounds_are_alike(l->of->bounds), halves = l->program.field.turns == 1;
     if (!row) return out_of_memory(note);
     for (int phase = 0; phase < 3; ++phase) {
-        const hci_limit_point one = {kind, phase, 0.0};
+        const hci_limit_point one = {kind, phase, 0.0, 0.0};
         thirds = thirds && is_same(l, first, phase * third_rad, phase, 1.0, row);
         halves = halves && is_same(l, one, HCI_PI, phase, -1.0, row);
     }
@@ -119,6 +119,7 @@ static hci_status add_voltages(hci_wishes *l, hci_note *note)
     hci_status status = HCI_OK;
     if (!(l->of->bounds->line_V < HUGE_VAL)) return HCI_OK;
     status = find_symmetry(l, HCI_POINT_VOLTAGE, &pairs, &share, note);
+    if (hci_limit_is_circle(&l->program.field)) pairs = 3;
     for (int pair = 0; pair < pairs && !status; ++pair)
         if (hci_bounds_drive_pair(l->of->bounds, pair))
             status = add_grid(l, HCI_POINT_VOLTAGE, pair, top_of_voltage(l), share, note);

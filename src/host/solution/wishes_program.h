@@ -27,10 +27,14 @@ typedef struct {
     hci_limit_program program;
     double *x;      /* S and C of each component, A: what was found */
     size_t rounds;  /* programs solved so far */
+    size_t steps;   /* in which the torque was made linear so far, of those before too that it goes on from */
+    bool is_ended;  /* for so many of them */
     bool is_coarse; /* the torque is still being made linear: peaks may stay for the next step */
     bool is_far;    /* and so far off that the solver need not be precise */
     bool is_hard;   /* the torque of the last step could not be as wanted */
-    bool is_kept;   /* the ripple of kept_Nm is there, and less copper is no reason to leave it */
+    bool is_bounded; /* in: the steps are hardly to come to rest; out: whether they did not, and were bounded
+                      */
+    bool is_kept;    /* the ripple of kept_Nm is there, and less copper is no reason to leave it */
     double kept_Nm;
     hci_limit_optimum cost; /* of the stage that says what limits cost */
 } hci_wishes;

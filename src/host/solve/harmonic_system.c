@@ -43,12 +43,22 @@ static size_t drop_free_orders(const hci_task *t, double *order, size_t n)
     return kept;
 }
 
+/* Of n sorted orders and `more` behind them, sorted, each once: most of those behind are among the others. */
+static size_t merge_orders(double *order, size_t n, size_t more)
+{
+    size_t kept = n;
+    for (size_t k = n; k < n + more; ++k)
+        if (hci_orders_find(order, n, order[k]) == n) order[kept++] = order[k];
+    return hci_orders_sort(order, kept);
+}
+
 static size_t all_orders(const hci_task *t, const hci_component *component, size_t count, double *order)
 {
     size_t n = given_orders(t, order);
     for (size_t k = 0; k < count; ++k)
-        n += hci_component_orders(t->gradient, t->gradient_count, component[k], order + n);
-    return drop_free_orders(t, order, hci_orders_sort(order, n));
+        n = merge_orders(order, n,
+                         hci_component_orders(t->gradient, t->gradient_count, component[k], order + n));
+    return drop_free_orders(t, order, n);
 }
 
 /* The paper's square system: as many orders as components. The given ones come first, then the lowest others.

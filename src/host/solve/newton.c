@@ -16,6 +16,7 @@
 
 enum {
     MOST_STEPS = 60,
+    MOST_SOLVED = 12000, /* components solved for in all steps: the time of one grows with their number */
     MOST_AT_FIRST = 500, /* waves of the current that it begins with */
     PATIENCE_FREE = 25,  /* steps without coming nearer to the target after which it ends */
     PATIENCE_FEW = 8     /* the same for a choice of few components, which is never exact and need not rest */
@@ -291,17 +292,23 @@ static size_t patience(const newton *n)
     return n->manner == MIDDLE ? PATIENCE_FEW : PATIENCE_FREE;
 }
 
+static size_t most_steps(const newton *n)
+{
+    const size_t count = n->answer.set.count;
+    return count * MOST_STEPS > MOST_SOLVED ? MOST_SOLVED / count : MOST_STEPS;
+}
+
 /* Until the current rests; or, where no step has come nearer to the wanted torque for a while, in vain. */
 static bool goes_on(const newton *n, const nearest *best)
 {
-    return n->solution->newton_change > CONVERGED && n->solution->newton_steps < MOST_STEPS &&
+    return n->solution->newton_change > CONVERGED && n->solution->newton_steps < most_steps(n) &&
            best->steps_since < patience(n);
 }
 
 /* How near the end is, by whatever may bring it. */
 static double share_done(const newton *n, const nearest *best)
 {
-    const double steps = (double)n->solution->newton_steps / MOST_STEPS,
+    const double steps = (double)n->solution->newton_steps / (double)most_steps(n),
                  rest = log(fmax(n->solution->newton_change, CONVERGED)) / log(CONVERGED),
                  wait = (double)best->steps_since / (double)patience(n);
     return fmax(fmax(steps, rest), wait);

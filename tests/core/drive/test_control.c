@@ -308,6 +308,19 @@ static void test_sinusoidal_modulation_ends_at_half_the_link(void)
     }
 }
 
+/* Shortened to √(3/2) U/√3 in the plane, in its direction; what is within it stays. */
+static void test_a_circle_shortens_the_vector(void)
+{
+    for (double theta = 0.0; theta < 6.3; theta += 0.05) {
+        double v[2] = {100.0 * cos(theta), 100.0 * sin(theta)}, within[2] = {0.84 * v[0], 0.84 * v[1]};
+        const double factor = hci_inverter_limit(HCI_MODULATION_CIRCLE, 120.0, v);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, 120.0 / sqrt(2.0), hypot(v[0], v[1]));
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.0, v[0] * sin(theta) - v[1] * cos(theta));
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.2 / sqrt(2.0), factor);
+        TEST_ASSERT_EQUAL_DOUBLE(1.0, hci_inverter_limit(HCI_MODULATION_CIRCLE, 120.0, within));
+    }
+}
+
 /* ---- code ---- */
 
 static void ask_for(void *context, const hci_measurement *measured, double torque_Nm, hci_reference_dq *r)
@@ -697,6 +710,7 @@ int main(void)
     RUN_TEST(test_dead_time_of_no_current);
     RUN_TEST(test_dead_time_is_compensated);
     RUN_TEST(test_sinusoidal_modulation_ends_at_half_the_link);
+    RUN_TEST(test_a_circle_shortens_the_vector);
     RUN_TEST(test_code_gives_current_and_voltage);
     RUN_TEST(test_current_loop_does_not_wind_up);
     RUN_TEST(test_hold_follows_from_the_frequency);

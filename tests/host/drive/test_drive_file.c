@@ -69,6 +69,15 @@ static void test_values_are_read_in_their_units(void)
     hci_drive_release(&d);
 }
 
+static void test_a_circle_is_a_range(void)
+{
+    hci_drive_data d;
+    hci_note note;
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, read_rows("modulation,circle,\n", &d, &note), note.text);
+    TEST_ASSERT_EQUAL_INT(HCI_MODULATION_CIRCLE, d.modulation);
+    hci_drive_release(&d);
+}
+
 /* Once released it is as one of which nothing is given, and may be released again. */
 static void test_a_drive_that_is_released_is_empty(void)
 {
@@ -279,6 +288,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_values_are_read_in_their_units);
+    RUN_TEST(test_a_circle_is_a_range);
     RUN_TEST(test_a_drive_that_is_released_is_empty);
     RUN_TEST(test_wrong_rows_are_named);
     RUN_TEST(test_a_measured_response_is_read);

@@ -96,6 +96,8 @@ static void test_dc_link_of_a_sine(void)
                               hci_turn_samples_dc_link_V(&x, R_ohm, HCI_MODULATION_SPACE_VECTOR, w));
     TEST_ASSERT_DOUBLE_WITHIN(4e-6 * hypot(d, q), 2.0 * hypot(d, q),
                               hci_turn_samples_dc_link_V(&x, R_ohm, HCI_MODULATION_SINUSOIDAL, w));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9 * hypot(d, q), sqrt(3.0) * hypot(d, q),
+                              hci_turn_samples_dc_link_V(&x, R_ohm, HCI_MODULATION_CIRCLE, w));
 }
 
 static void test_orders_that_do_not_repeat_are_refused(void)

@@ -141,8 +141,9 @@ static void mirror(hci_machine *m)
 /* With dead time, and with a voltage that does not do for all orders, motor and generator. */
 static void test_the_other_direction_is_a_mirror_image(void)
 {
-    static const char *const DRIVES[] = {WINDING "dead_time,1,us\n", WINDING "modulation,sinusoidal,\n"};
-    for (int d = 0; d < 2; ++d)
+    static const char *const DRIVES[] = {WINDING "dead_time,1,us\n", WINDING "modulation,sinusoidal,\n",
+                                         WINDING "modulation,circle,\n"};
+    for (int d = 0; d < 3; ++d)
         for (int brakes = 0; brakes < 2; ++brakes) {
             const double torque_Nm = brakes ? -2.46 : 2.46;
             const grid forward = {&machine_a, DRIVES[d], torque_Nm, {300.0, 1500.0}, 0.0},

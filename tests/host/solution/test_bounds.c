@@ -95,15 +95,15 @@ static void test_voltage_of_the_link(void)
     options.limit_voltage_V = 50.0;
     TEST_ASSERT_EQUAL(HCI_OK, make(1.0));
     TEST_ASSERT_EQUAL_DOUBLE(50.0, bounds.line_V);
-    TEST_ASSERT_FALSE(bounds.sinusoidal || bounds.voltage_is_declared);
+    TEST_ASSERT_FALSE(bounds.modulation || bounds.voltage_is_declared);
     options.limits.voltage_reserve = 0.1;
     options.limits.dead_time_s = 2e-6;
     options.limits.pwm_frequency_Hz = 1e4;
-    options.limits.sinusoidal = true;
+    options.limits.modulation = HCI_MODULATION_SINUSOIDAL;
     TEST_ASSERT_EQUAL(HCI_OK, make(1.0));
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.86, bounds.line_V_per_V);
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 43.0, bounds.line_V);
-    TEST_ASSERT_TRUE(bounds.sinusoidal);
+    TEST_ASSERT_EQUAL_INT(HCI_MODULATION_SINUSOIDAL, bounds.modulation);
 }
 
 /* A declared link counts at a speed, were it 0 that is given, and where no other is. */
@@ -228,7 +228,7 @@ static void test_pairs_that_are_driven(void)
             TEST_ASSERT_TRUE(hci_bounds_drive_pair(&bounds, pair));
             bounds.current_A[open] = 0.0; /* ab is the pair 0, ca the pair 2 */
             TEST_ASSERT_EQUAL(pair == (open + 1) % 3, hci_bounds_drive_pair(&bounds, pair));
-            bounds.sinusoidal = true;
+            bounds.modulation = HCI_MODULATION_SINUSOIDAL;
             TEST_ASSERT_EQUAL(pair != open, hci_bounds_drive_pair(&bounds, pair));
             bounds.current_A[(open + 1) % 3] = 0.0; /* no two phases */
             TEST_ASSERT_TRUE(hci_bounds_drive_pair(&bounds, pair));

@@ -69,6 +69,14 @@ static void test_at_the_frequency_of_the_pwm(void)
                                  remark.text);
 }
 
+static void test_a_circle_is_a_vector(void)
+{
+    d.modulation = HCI_MODULATION_CIRCLE;
+    take();
+    TEST_ASSERT_EQUAL_INT(HCI_MODULATION_CIRCLE, o.limits.modulation);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(remark.text, "a vector of 57.74 V"), remark.text);
+}
+
 /* What was asked for stays, be it the voltage or the dead time. */
 static void test_what_was_given_stays(void)
 {
@@ -98,6 +106,7 @@ int main(void)
     RUN_TEST(test_the_dc_link_is_a_limit);
     RUN_TEST(test_dead_time_takes_of_it);
     RUN_TEST(test_at_the_frequency_of_the_pwm);
+    RUN_TEST(test_a_circle_is_a_vector);
     RUN_TEST(test_what_was_given_stays);
     return UNITY_END();
 }

@@ -104,7 +104,9 @@ static void test_smooth_torque_takes_a_negative_i_d(void)
     TEST_ASSERT_TRUE(before_A < -1.0);
 }
 
-/* ---- without a zero sequence ---- */
+/* ---- without a zero sequence, and in a circle ---- */
+
+static double vector_V; /* amplitude that voltages_by_samples has seen */
 
 /* The largest phase and line voltage of the solved currents by v = R i + ω (L di/dθ) + ω_m e, and differences
  * of neighbours for the derivative. */
@@ -113,7 +115,7 @@ static void voltages_by_samples(double *phase_V, double *line_V)
     enum { N = 20000 };
     static double i_A[N][3], e[3];
     const double speed = options.speed_rad_per_s, step = 2.0 * REF_PI / N;
-    *phase_V = *line_V = 0.0;
+    *phase_V = *line_V = vector_V = 0.0;
     for (size_t k = 0; k < N; ++k)
         hci_waves_at(solution.current.wave, solution.current.count, step * (double)k, i_A[k]);
     for (size_t k = 0; k < N; ++k) {
@@ -125,6 +127,7 @@ static void voltages_by_samples(double *phase_V, double *line_V)
             v[s] = RESISTANCE_OHM * i_A[k][s] + 2.0 * speed * INDUCTANCE_H * slope + speed * (e[s] - zero);
             *phase_V = fmax(*phase_V, fabs(v[s]));
         }
+        vector_V = fmax(vector_V, sqrt((v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / 1.5));
         for (int s = 0; s < 3; ++s)
             *line_V = fmax(*line_V, fabs(v[s] - v[(s + 1) % 3]));
     }
@@ -137,25 +140,79 @@ static void test_sinusoidal_modulation_keeps_each_phase(void)
     double phase_V, line_V;
     options.speed_rad_per_s = 1500.0 * REF_PI / 30.0;
     options.limit_voltage_V = 102.0;
-    options.limits.sinusoidal = true;
+    options.limits.modulation = HCI_MODULATION_SINUSOIDAL;
     solve(HCI_OK);
     voltages_by_samples(&phase_V, &line_V);
     TEST_ASSERT_EQUAL(HCI_COST_COPPER, solution.limit_cost); /* it acts */
     TEST_ASSERT_DOUBLE_WITHIN(1e-4 * 51.0, 51.0, phase_V);
     TEST_ASSERT_DOUBLE_WITHIN(1e-4 * line_V, line_V, solution.peak_line_voltage_V);
-    TEST_ASSERT_TRUE(solution.limit_count == 1 && solution.limit[0].of_phases);
+    TEST_ASSERT_TRUE(solution.limit_count == 1 && solution.limit[0].modulation == HCI_MODULATION_SINUSOIDAL);
     TEST_ASSERT_DOUBLE_WITHIN(1e-3, 102.0, solution.limit[0].value);
     TEST_ASSERT_EQUAL_STRING("c", hci_limit_place_name(&solution.limit[0], 2));
-    options.limits.sinusoidal = false;
+    options.limits.modulation = HCI_MODULATION_SPACE_VECTOR;
     solve(HCI_OK);
     voltages_by_samples(&phase_V, &line_V);
     TEST_ASSERT_TRUE(phase_V > 51.0);
     TEST_ASSERT_EQUAL_STRING("ca", hci_limit_place_name(&solution.limit[0], 2));
 }
 
+/* Largest speed at which the plain sine makes the torque with i_d = 0 within an amplitude of the phase
+ * voltage: (ωL i_q)² + (R i_q + ω_m k)² = V². */
+static double largest_speed(double amplitude_V)
+{
+    const double k = machine.model.back_emf[0].sine, i_q = 2.46 / (1.5 * k), x = 2.0 * INDUCTANCE_H * i_q,
+                 r = RESISTANCE_OHM * i_q, a = x * x + k * k, b = r * k,
+                 c = r * r - amplitude_V * amplitude_V;
+    return (-b + sqrt(b * b - a * c)) / a;
+}
+
+/* A plain sine turns through all directions: up to U/√3 in the circle and in the hexagon, up to U/2 without a
+ * zero sequence. */
+static void test_the_largest_speed_of_a_plain_sine(void)
+{
+    static const double SHARE[] = {[HCI_MODULATION_SPACE_VECTOR] = 0.57735026918962576,
+                                   [HCI_MODULATION_SINUSOIDAL] = 0.5,
+                                   [HCI_MODULATION_CIRCLE] = 0.57735026918962576};
+    only_the_fundamental();
+    options.limit_voltage_V = 100.0;
+    for (int m = 0; m < 3; ++m) {
+        const double speed = largest_speed(100.0 * SHARE[m]), around[2] = {0.9999 * speed, 1.0001 * speed};
+        options.limits.modulation = (hci_modulation)m;
+        for (int k = 0; k < 2; ++k) {
+            options.speed_rad_per_s = around[k];
+            solve(HCI_OK);
+            TEST_ASSERT_EQUAL(k == 0 ? HCI_COST_NONE : HCI_COST_COPPER, solution.limit_cost);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-4, closed_form_A(around[k], sqrt(3.0) * SHARE[m] * 100.0), i_d_A());
+        }
+    }
+}
+
+/* Of harmonics the hexagon has more than the circle within it, whatever the phases and line voltages. */
+static void test_a_circle_keeps_the_vector(void)
+{
+    double phase_V, line_V;
+    options.speed_rad_per_s = 1500.0 * REF_PI / 30.0;
+    options.limit_voltage_V = 90.0;
+    options.limits.modulation = HCI_MODULATION_CIRCLE;
+    solve(HCI_OK);
+    voltages_by_samples(&phase_V, &line_V);
+    const double circle_A2 = solution.mean_square_A2;
+    TEST_ASSERT_EQUAL(HCI_COST_COPPER, solution.limit_cost); /* it acts */
+    TEST_ASSERT_DOUBLE_WITHIN(1e-4 * 90.0, 90.0, sqrt(3.0) * vector_V);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6 * 90.0, 90.0, solution.limit[0].value);
+    TEST_ASSERT_EQUAL_STRING("vector", hci_limit_place_name(&solution.limit[0], 0));
+    options.limits.modulation = HCI_MODULATION_SPACE_VECTOR;
+    solve(HCI_OK);
+    voltages_by_samples(&phase_V, &line_V);
+    TEST_ASSERT_TRUE(line_V < 90.01 && sqrt(3.0) * vector_V > 90.5);
+    TEST_ASSERT_TRUE(solution.mean_square_A2 < circle_A2);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_the_largest_speed_of_a_plain_sine);
+    RUN_TEST(test_a_circle_keeps_the_vector);
     RUN_TEST(test_the_plain_sine_follows_the_voltage_circle);
     RUN_TEST(test_smooth_torque_takes_a_negative_i_d);
     RUN_TEST(test_sinusoidal_modulation_keeps_each_phase);

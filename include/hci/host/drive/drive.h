@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "hci/drive/plant.h"
 #include "hci/host/currents/currents.h"
 #include "hci/host/machine/machine.h"
 
@@ -51,7 +52,8 @@ extern "C" {
 /* How a drive modulates: X(value, word). */
 #define HCI_MODULATION_NAMES(X)                                                                              \
     X(HCI_MODULATION_SPACE_VECTOR, "space_vector")                                                           \
-    X(HCI_MODULATION_SINUSOIDAL, "sinusoidal")
+    X(HCI_MODULATION_SINUSOIDAL, "sinusoidal")                                                               \
+    X(HCI_MODULATION_CIRCLE, "circle")
 
 /* Which current a measured response is of: X(value, word). */
 #define HCI_RESPONSE_OF_NAMES(X)                                                                             \
@@ -64,12 +66,6 @@ typedef enum {
     HCI_DECOUPLING_CONSTANT, /* ω L_q i_q, ω L_d i_d and the fundamental of the back-EMF */
     HCI_DECOUPLING_NONE      /* nothing */
 } hci_decoupling;
-
-/* Which voltages a modulation reaches. */
-typedef enum {
-    HCI_MODULATION_SPACE_VECTOR, /* with the best zero sequence: line voltages up to the dc link */
-    HCI_MODULATION_SINUSOIDAL    /* without: phase voltages up to half the dc link */
-} hci_modulation;
 
 /* Which current a measured response is of. */
 typedef enum {

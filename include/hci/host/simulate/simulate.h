@@ -235,7 +235,7 @@ typedef struct {
 typedef struct {
     hci_reference_code code;      /* in place of strategy and currents */
     const hci_plant_table *known; /* the machine as the decoupling knows it; NULL: as it is declared */
-    bool sinusoidal;              /* modulation without zero sequence */
+    hci_modulation modulation;    /* which voltages there are */
 } hci_simulate_loop;
 
 /* What a simulation is given besides machine and scenario. */

@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 
+#include "hci/drive/plant.h"
 #include "hci/effects/effect.h"
 #include "hci/host/base/progress.h"
 #include "hci/host/currents/currents.h"
@@ -66,8 +67,8 @@ typedef struct {
     double rms_A[3];                      /* of each phase */
     double voltage_reserve;               /* share of the dc link that is left for the control, below 1 */
     double dead_time_s, pwm_frequency_Hz; /* line voltages lose 2 · dead time · frequency of the dc link */
-    bool sinusoidal;                      /* modulation adds no zero sequence: each phase voltage is at most
-                                           * half of limit_voltage_V, which is less than line voltages have */
+    hci_modulation modulation;            /* what is within limit_voltage_V: line voltages, twice each phase
+                                           * voltage, or √3 times the amplitude of the vector */
     double copper_W;                      /* copper loss of all phases; needs `resistance` */
     double copper_ratio;                  /* copper loss over that of the plain sine */
     bool ignore_ratings;                  /* leave out what the machine declares */
@@ -174,12 +175,12 @@ typedef struct {
 
 /* One limit and how the currents stand to it. */
 typedef struct {
-    hci_limit_kind kind; /* of what */
-    int phase;           /* 0, 1, 2: of phase a, b, c alone; −1: the same for all */
-    double limit, value; /* what is allowed, and the largest there is; unit of the kind */
-    bool is_declared;    /* by the machine, not asked for */
-    bool of_phases;      /* a voltage: twice that of each phase, as of sinusoidal modulation */
-    bool binds;          /* it is touched and costs something */
+    hci_limit_kind kind;       /* of what */
+    int phase;                 /* 0, 1, 2: of phase a, b, c alone; −1: the same for all */
+    double limit, value;       /* what is allowed, and the largest there is; unit of the kind */
+    bool is_declared;          /* by the machine, not asked for */
+    hci_modulation modulation; /* of a voltage: which */
+    bool binds;                /* it is touched and costs something */
     double gain; /* what 1 more of it would give, by solution.limit_cost; 0 where it does not bind, no number
                   * where it is not known: the currents are the best that were found, and not at rest */
     hci_limit_touch touch[HCI_MOST_TOUCHES]; /* currents and voltages: where it is touched */

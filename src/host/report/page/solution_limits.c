@@ -13,10 +13,11 @@ static const char *unit_of(const hci_limit *l)
 
 static void name_of(const hci_limit *l, char text[HCI_HTML_NUMBER_SIZE])
 {
-    static const char *const NAME[] = {"phase current", "rms current", "line voltage", "copper"};
+    static const char *const NAME[] = {"phase current", "rms current", "", "copper"};
+    static const char *const VOLTAGE[] = {"line voltage", "2 × phase voltage", "√3 × voltage vector"};
     static const char *const PHASE[] = {"", " of a", " of b", " of c"};
-    snprintf(text, HCI_HTML_NUMBER_SIZE, "%s%s", l->of_phases ? "2 × phase voltage" : NAME[l->kind],
-             PHASE[l->phase + 1]);
+    snprintf(text, HCI_HTML_NUMBER_SIZE, "%s%s",
+             l->kind == HCI_LIMIT_VOLTAGE ? VOLTAGE[l->modulation] : NAME[l->kind], PHASE[l->phase + 1]);
 }
 
 /* The angles at which a limit is touched, in degrees. */
