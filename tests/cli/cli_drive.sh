@@ -148,6 +148,20 @@ says "$salient"
 run 0 check data/machine_a --drive "$work/salient.csv"
 says "$salient"
 
+# ---- between levels
+
+# with reluctance what lies between levels is told, in words and in the header; of a straight line nothing
+for torque in 0 4 8; do
+    printf 'order,amplitude_Nm,phase_rad\n0,%s,0\n' "$torque" >"$work/level.csv"
+    run 0 solve data/machine_c --target "$work/level.csv" --auto -q -o "$work/level_$torque"
+done
+run 0 emit "$work/level_0" "$work/level_4" "$work/level_8" --name smooth --machine data/machine_c --drive data/drive/machine_c_10kHz.csv \
+    -o "$work/levels"
+says 'between *levels the mean is up to [0-9.e-]* N·m off' 'more levels leave less'
+check "the header does not say what lies between" grep -q 'Between levels the mean is up to' "$work/levels/smooth.h"
+run 0 emit "$work/a" --name smooth --machine data/machine_a --drive $drive --per-torque -o "$work/levels"
+check "a straight line has something between" sh -c '! grep -q "^  between" "$1"' sh "$work/stdout"
+
 # ---- one level makes its torque whatever is asked for, which is said; two make any between them
 
 run 0 emit "$work/a" --name smooth --machine data/machine_a --drive $drive -o "$work/one_level"
