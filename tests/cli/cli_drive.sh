@@ -148,6 +148,16 @@ says "$salient"
 run 0 check data/machine_a --drive "$work/salient.csv"
 says "$salient"
 
+# ---- a ripple of no torque is none, and a speed that takes hours is refused as a speed
+
+cp -R data/machine_a "$work/without_fundamental"
+sed '/^11,/d; s/^1,21.93/11,21.93/' data/machine_a/back_emf.csv >"$work/without_fundamental/back_emf.csv"
+run 0 simulate "$work/without_fundamental" --table "$work/a" --drive $drive --speeds 100 --model-error 10
+check "a ripple of no torque is told as a number" sh -c '! grep -qw -e nan -e inf "$1"' sh "$work/stdout"
+check "a ripple of no torque is not a dash" grep -q '100 rpm .* - ' "$work/stdout"
+run 2 simulate data/machine_a --table "$work/a" --drive $drive --speeds 1e-9
+says 'a speed of 1e-09 rpm has more samples in two turns'
+
 # ---- between levels
 
 # with reluctance what lies between levels is told, in words and in the header; of a straight line nothing
