@@ -7,8 +7,8 @@
 #include <stdio.h>
 
 #include "hci/version.h"
+#include "host/drive/between_levels.h"
 #include "host/drive/loop_set.h"
-#include "host/emit/between_levels.h"
 #include "host/emit/blob_loop.h"
 #include "host/emit/request.h"
 #include "host/emit/text.h"

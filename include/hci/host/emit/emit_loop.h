@@ -28,13 +28,6 @@ typedef struct {
     uint64_t input_hash;          /* 64-bit FNV-1a of what the currents were read from */
 } hci_emit_loop_request;
 
-/* The largest departures of the torque between the levels from the straight line between what two of them
- * make, with currents that flow as they are, and the torques that were asked for there. */
-typedef struct {
-    double mean_off_Nm, mean_at_Nm; /* of the mean, with its sign */
-    double ripple_Nm, ripple_at_Nm; /* peak to peak of the departure over the angle */
-} hci_between_levels;
-
 /* What it has become. */
 typedef struct {
     size_t orders, levels, points; /* orders with the mean; points of a table in RAM */

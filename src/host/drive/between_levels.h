@@ -1,8 +1,7 @@
 /* What the torque is between the levels of a table. */
-#ifndef HCI_SRC_HOST_EMIT_BETWEEN_LEVELS_H
-#define HCI_SRC_HOST_EMIT_BETWEEN_LEVELS_H
+#ifndef HCI_SRC_HOST_DRIVE_BETWEEN_LEVELS_H
+#define HCI_SRC_HOST_DRIVE_BETWEEN_LEVELS_H
 
-#include "hci/host/emit/emit_loop.h"
 #include "host/drive/loop_set.h"
 #include "host/machine/machine_plant.h"
 

@@ -1,7 +1,7 @@
 /* In: a table with levels of torque, and the plant; out: how far the torque between them is from what is
  * asked for. Wanted between two levels is the straight line between what these make, angle by angle, so that
  * a ripple of the levels themselves does not count. */
-#include "host/emit/between_levels.h"
+#include "host/drive/between_levels.h"
 
 #include <math.h>
 

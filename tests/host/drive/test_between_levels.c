@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "host/emit/between_levels.h"
+#include "host/drive/between_levels.h"
 #include "support/files.h"
 #include "support/reference.h"
 #include "unity.h"
