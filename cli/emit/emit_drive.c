@@ -31,6 +31,7 @@ static hci_status read_drive_inputs(const cli_arguments *a, drive_inputs *in, hc
     in->request =
         (hci_emit_loop_request){.name = a->value[EMIT_NAME],
                                 .machine = &in->machine,
+                                .machine_folder = a->value[EMIT_MACHINE],
                                 .drive = &in->drive,
                                 .levels = in->levels.level,
                                 .level_count = in->levels.count,

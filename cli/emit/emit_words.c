@@ -93,6 +93,20 @@ static void show_response(const hci_emit_loop_result *result)
     cli_say("\n");
 }
 
+#define NO_DEPARTURE 1e-5 /* share of the largest torque below which levels are as good as a straight line   \
+                           */
+
+/* What a torque between two levels makes of what is asked for. */
+static void show_between(const hci_emit_loop_result *r)
+{
+    const hci_between_levels *x = &r->between;
+    const double little_Nm = NO_DEPARTURE * fmax(fabs(r->torque_low_Nm), fabs(r->torque_high_Nm));
+    if (isnan(x->ripple_Nm) || (x->ripple_Nm < little_Nm && fabs(x->mean_off_Nm) < little_Nm)) return;
+    cli_say("  between      levels the mean is up to %.3g N·m off (at %.4g N·m), and there is up to %.3g N·m "
+            "more\n               ripple, peak to peak (at %.4g N·m); more levels leave less\n",
+            fabs(x->mean_off_Nm), x->mean_at_Nm, x->ripple_Nm, x->ripple_at_Nm);
+}
+
 void cli_show_loop(const hci_emit_loop_request *r, const hci_emit_loop_result *result, const char *folder)
 {
     cli_say(CLI_GOOD "emitted" CLI_PLAIN ": %s/%s.h and %s.c\n", folder, r->name, r->name);
@@ -111,6 +125,7 @@ void cli_show_loop(const hci_emit_loop_request *r, const hci_emit_loop_result *r
             result->ram_bytes, result->feedforward_ram_bytes);
     cli_say("  error        at most %.3g A of a current vector of %.4g A\n", result->max_error_A,
             result->peak_A);
+    show_between(result);
     cli_say("  lead         %.4g us\n", 1e6 * result->lead_s);
     show_speed("voltage     ", result->voltage_rad_per_s);
     show_speed("sampling    ", result->sampled_rad_per_s);

@@ -76,12 +76,21 @@ static double shown_ripple(const hci_speeds *s, const hci_speed_result *x, bool 
     return s->torque_Nm != 0.0 ? x->T_ripple_percent : x->ripple_Nm;
 }
 
+/* None where the mean is next to nothing, which a ratio cannot be of. */
+static void show_ripple(double value)
+{
+    if (isnan(value))
+        cli_say(" %12s", "-");
+    else
+        cli_say(" %12.4g", value);
+}
+
 static void show_rows(const hci_speeds *s, bool worst)
 {
     for (size_t k = 0; k < s->count; ++k) {
         cli_say("  %7.5g rpm ", rpm(s->row[k].speed_rad_per_s));
         for (int r = 0; r < HCI_REMEDIES; ++r)
-            cli_say(" %12.4g", shown_ripple(s, &s->row[k].remedy[r], worst));
+            show_ripple(shown_ripple(s, &s->row[k].remedy[r], worst));
         if (worst)
             cli_say("\n");
         else

@@ -148,6 +148,30 @@ says "$salient"
 run 0 check data/machine_a --drive "$work/salient.csv"
 says "$salient"
 
+# ---- a ripple of no torque is none, and a speed that takes hours is refused as a speed
+
+cp -R data/machine_a "$work/without_fundamental"
+sed '/^11,/d; s/^1,21.93/11,21.93/' data/machine_a/back_emf.csv >"$work/without_fundamental/back_emf.csv"
+run 0 simulate "$work/without_fundamental" --table "$work/a" --drive $drive --speeds 100 --model-error 10
+check "a ripple of no torque is told as a number" sh -c '! grep -qw -e nan -e inf "$1"' sh "$work/stdout"
+check "a ripple of no torque is not a dash" grep -q '100 rpm .* - ' "$work/stdout"
+run 2 simulate data/machine_a --table "$work/a" --drive $drive --speeds 1e-9
+says 'a speed of 1e-09 rpm has more samples in two turns'
+
+# ---- between levels
+
+# with reluctance what lies between levels is told, in words and in the header; of a straight line nothing
+for torque in 0 4 8; do
+    printf 'order,amplitude_Nm,phase_rad\n0,%s,0\n' "$torque" >"$work/level.csv"
+    run 0 solve data/machine_c --target "$work/level.csv" --auto -q -o "$work/level_$torque"
+done
+run 0 emit "$work/level_0" "$work/level_4" "$work/level_8" --name smooth --machine data/machine_c --drive data/drive/machine_c_10kHz.csv \
+    -o "$work/levels"
+says 'between *levels the mean is up to [0-9.e-]* N·m off' 'more levels leave less'
+check "the header does not say what lies between" grep -q 'Between levels the mean is up to' "$work/levels/smooth.h"
+run 0 emit "$work/a" --name smooth --machine data/machine_a --drive $drive --per-torque -o "$work/levels"
+check "a straight line has something between" sh -c '! grep -q "^  between" "$1"' sh "$work/stdout"
+
 # ---- one level makes its torque whatever is asked for, which is said; two make any between them
 
 run 0 emit "$work/a" --name smooth --machine data/machine_a --drive $drive -o "$work/one_level"

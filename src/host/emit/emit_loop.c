@@ -7,6 +7,7 @@
 #include <stdio.h>
 
 #include "hci/version.h"
+#include "host/drive/between_levels.h"
 #include "host/drive/loop_set.h"
 #include "host/emit/blob_loop.h"
 #include "host/emit/request.h"
@@ -15,6 +16,7 @@
 typedef struct {
     const hci_emit_loop_request *request;
     hci_loop_set set;
+    hci_between_levels between;
 } emission;
 
 /* ---- words ---- */
@@ -82,11 +84,22 @@ static void write_levels(const hci_loop_f32 *loop, hci_output *out)
                         loop->levels, low, high);
 }
 
+static void write_between(const hci_between_levels *x, hci_output *out)
+{
+    if (isnan(x->ripple_Nm)) return;
+    hci_output_text(
+        out,
+        " *          Between levels the mean is up to %.2g N*m off, at %.4g N*m, and there is up to\n"
+        " *          %.2g N*m more ripple, peak to peak, at %.4g N*m.\n",
+        fabs(x->mean_off_Nm), x->mean_at_Nm, x->ripple_Nm, x->ripple_at_Nm);
+}
+
 static void write_figures(const emission *e, hci_output *out)
 {
     const hci_loop_f32 *loop = &e->set.loop;
     char low[32], high[32];
     write_levels(loop, out);
+    write_between(&e->between, out);
     hci_output_text(out, " * Error:   a table of %" PRIu32 " points is within %s A of its waves, of %s A.\n",
                     loop->points, hci_emission_number(e->set.max_error_A, low),
                     hci_emission_number(e->set.peak_A, high));
@@ -333,6 +346,19 @@ static hci_emit_loop_result result_of(const hci_loop_set *set, const hci_loop_ta
         .crc32 = loop->crc32};
 }
 
+/* Where there are levels to be between, and it is asked for. */
+static hci_status find_between(emission *e, hci_note *note)
+{
+    const hci_emit_loop_request *r = e->request;
+    hci_machine_plant plant = {0};
+    e->between = (hci_between_levels){NAN, NAN, NAN, NAN};
+    if (!r->machine_folder || e->set.loop.levels < 2) return HCI_OK;
+    hci_status status = hci_machine_plant_make(r->machine_folder, r->machine, &plant, note);
+    if (!status) status = hci_between_levels_find(&e->set, &plant, &e->between, note);
+    hci_machine_plant_release(&plant);
+    return status;
+}
+
 hci_status hci_emit_loop(const char *folder, const hci_emit_loop_request *request,
                          hci_emit_loop_result *result, hci_note *note)
 {
@@ -350,8 +376,12 @@ hci_status hci_emit_loop(const char *folder, const hci_emit_loop_request *reques
                                 request->max_error_A,
                                 request->speed_rad_per_s};
     if (!status) status = hci_loop_set_make(&task, &e.set, note);
+    if (!status) status = find_between(&e, note);
     if (!status) status = write_files(&e, folder, note);
-    if (!status && result) *result = result_of(&e.set, &task);
+    if (!status && result) {
+        *result = result_of(&e.set, &task);
+        result->between = e.between;
+    }
     hci_loop_set_release(&e.set);
     return status;
 }

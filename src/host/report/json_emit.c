@@ -74,6 +74,10 @@ char *hci_emit_loop_json(const hci_emit_loop_request *request, const hci_emit_lo
     hci_json_number(&json, "response_error", r->response_error);
     hci_json_number(&json, "response_ripple", r->response_ripple_percent);
     hci_json_number(&json, "response_rpm", r->response_rad_per_s * 30.0 / HCI_PI);
+    hci_json_number(&json, "between_mean_off_Nm", r->between.mean_off_Nm);
+    hci_json_number(&json, "between_mean_at_Nm", r->between.mean_at_Nm);
+    hci_json_number(&json, "between_ripple_Nm", r->between.ripple_Nm);
+    hci_json_number(&json, "between_ripple_at_Nm", r->between.ripple_at_Nm);
     hci_json_number(&json, "crc32", r->crc32);
     return hci_json_end(&json);
 }

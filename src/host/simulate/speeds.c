@@ -40,6 +40,9 @@ enum { STEPS_OF_A_SAMPLE = 10 };
  * and seconds that are evaluated at least. */
 static const double SETTLE = 12.0, LEAST_s = 0.2;
 
+static const double TURNS = 2.02;       /* of the shaft, that are evaluated at least */
+static const double MOST_SAMPLES = 3e8; /* in them: hours */
+
 static void fill_scenario(const grid *g, double speed_rad_per_s, hci_scenario *s)
 {
     const hci_drive_data *d = g->request->drive;
@@ -50,7 +53,7 @@ static void fill_scenario(const grid *g, double speed_rad_per_s, hci_scenario *s
     hci_scenario_init(s);
     s->step_s = d->sample_s / STEPS_OF_A_SAMPLE;
     s->settle_s = SETTLE * slow_s + 200.0 * d->sample_s;
-    s->duration_s = s->settle_s + fmax(LEAST_s, 2.02 * 2.0 * HCI_PI / fabs(speed_rad_per_s));
+    s->duration_s = s->settle_s + fmax(LEAST_s, TURNS * 2.0 * HCI_PI / fabs(speed_rad_per_s));
     s->prescribed_speed_rad_per_s = speed_rad_per_s;
     s->torque_reference_Nm = g->request->torque_Nm;
     s->current_control = HCI_CURRENT_PI;
@@ -357,6 +360,18 @@ static hci_status check_torque(const hci_speeds_request *q, hci_note *note)
         q->torque_Nm, low, high);
 }
 
+/* Whether the turns that are evaluated end. */
+static hci_status check_slow(const hci_drive_data *d, double speed_rad_per_s, hci_note *note)
+{
+    const double least_rad_per_s = TURNS * 2.0 * HCI_PI / (MOST_SAMPLES * d->sample_s);
+    if (fabs(speed_rad_per_s) >= least_rad_per_s) return HCI_OK;
+    return hci_note_set(
+        note, HCI_ERROR_ARGUMENT,
+        "a speed of %g rpm has more samples in two turns of the shaft than are simulated, %g; "
+        "expected at least %.2g rpm with a `current_sample_time` of %g s",
+        speed_rad_per_s * 30.0 / HCI_PI, MOST_SAMPLES, least_rad_per_s * 30.0 / HCI_PI, d->sample_s);
+}
+
 static hci_status prepare(grid *g)
 {
     const hci_speeds_request *q = g->request;
@@ -365,6 +380,8 @@ static hci_status prepare(grid *g)
     if (!status) status = hci_drive_fit(q->drive, q->machine, &g->machine, g->note);
     for (size_t k = 0; k < q->speed_count && !status; ++k)
         status = hci_drive_check_speed(q->drive, &g->machine, q->speeds_rad_per_s[k], g->note);
+    for (size_t k = 0; k < q->speed_count && !status; ++k)
+        status = check_slow(q->drive, q->speeds_rad_per_s[k], g->note);
     if (!status)
         status = q->drive->decoupling == HCI_DECOUPLING_TABLE
                      ? hci_machine_model_make(&g->machine, &g->known, g->note)

@@ -11,15 +11,17 @@
 #include "host/solve/linear.h"
 #include "host/solve/newton.h"
 #include "host/solve/pointwise.h"
+#include "host/solve/torque_spectrum.h"
 
 enum { ANGLES = 2048, BISECTIONS = 16, MOST_NAMED = 4 };
 
 static const double ENOUGH = 0.01, /* ripple as a share of the mean torque that needs no price */
     DEFAULT_LOSS = 1.5,            /* most copper over that without a price */
     LEAST_PRICE = 1e-18, MOST_PRICE = 1e-2;
-static const double WORTH = 0.9;   /* share of the ripple without a price above which there is none */
-static const double REDUCED = 0.7; /* share of its current below which a component is named */
-static const double SAME = 1e-6;   /* share of the ripple within which it is that of the same currents */
+static const double WORTH = 0.9;     /* share of the ripple without a price above which there is none */
+static const double REDUCED = 0.7;   /* share of its current below which a component is named */
+static const double NO_WORSE = 1e-3; /* share by which the error of the torque may grow */
+static const double SAME = 1e-6;     /* share of the ripple within which it is that of the same currents */
 
 /* ---- what the hold leaves ---- */
 
@@ -88,6 +90,17 @@ static hci_wave wave_of(const question *q, const hci_answer *a, size_t k)
                       hci_coordinate(a->x, n, q->mean_Nm, 2 * k + 1)};
 }
 
+/* The error of the torque. wave: room for one more, that of a fundamental that is held. */
+static hci_status weigh_torque(const question *q, hci_wave *wave, size_t count, hci_held_worth *w,
+                               hci_note *note)
+{
+    hci_torque_error error = {0.0, 0.0};
+    if (q->task->held) wave[count++] = *q->task->held;
+    const hci_status status = hci_torque_error_evaluate(q->task, wave, count, &error, note);
+    w->error_Nm = error.worst_Nm;
+    return status;
+}
+
 static hci_status weigh(const question *q, const hci_answer *a, hci_held_worth *w, hci_note *note)
 {
     hci_wave *wave = hci_memory_new(a->set.count + 1, sizeof *wave);
@@ -96,8 +109,9 @@ static hci_status weigh(const question *q, const hci_answer *a, hci_held_worth *
         wave[k] = wave_of(q, a, k);
     w->ripple_Nm = hci_hold_ripple_Nm(q->task, wave, a->set.count, q->options->sample_rad);
     w->copper_A2 = hci_waves_mean_square(wave, a->set.count);
+    const hci_status status = weigh_torque(q, wave, a->set.count, w, note);
     hci_memory_free(wave);
-    return HCI_OK;
+    return status;
 }
 
 static hci_status ask_at(const question *q, double price, hci_answer *a, hci_held_worth *w, hci_note *note)
@@ -105,6 +119,20 @@ static hci_status ask_at(const question *q, double price, hci_answer *a, hci_hel
     q->task->rotor_price = price;
     hci_status status = ask(q, a, note);
     return status ? status : weigh(q, a, w, note);
+}
+
+/* Whether the last currents that were asked for are those of least size. */
+static bool is_at_rest(const question *q)
+{
+    return hci_task_is_linear(q->task) || q->options->method == HCI_METHOD_POINTWISE ||
+           q->solution->newton_converged;
+}
+
+/* Whether they make the torque as well as those without a price, within what is called reached. */
+static bool is_same_torque(const question *q, const hci_held_worth *first, const hci_held_worth *w)
+{
+    return is_at_rest(q) &&
+           w->error_Nm <= fmax(q->solution->tolerance_Nm, (1.0 + NO_WORSE) * first->error_Nm);
 }
 
 /* The least price that does, or the highest that the copper allows; the answer at it. */
@@ -115,16 +143,19 @@ static hci_status search(const question *q, const hci_held_worth *first, hci_ans
                  most_A2 = (allowance > 0.0 ? allowance : DEFAULT_LOSS) * first->copper_A2;
     double low = LEAST_PRICE, high = MOST_PRICE;
     hci_status status = HCI_OK;
+    bool is_dear = false;
     for (int k = 0; k < BISECTIONS && !status; ++k) {
         const double price = sqrt(low * high);
         status = ask_at(q, price, a, w, note);
-        if (w->ripple_Nm > enough_Nm && w->copper_A2 <= most_A2)
+        is_dear = w->copper_A2 > most_A2 || !is_same_torque(q, first, w);
+        if (w->ripple_Nm > enough_Nm && !is_dear)
             low = price;
         else
             high = price;
     }
     if (!status) status = ask_at(q, high, a, w, note);
-    if (!status && w->copper_A2 > most_A2) status = ask_at(q, low, a, w, note);
+    is_dear = w->copper_A2 > most_A2 || !is_same_torque(q, first, w);
+    if (!status && is_dear) status = ask_at(q, low, a, w, note);
     return status;
 }
 
@@ -197,11 +228,17 @@ static hci_status find_least(question *q, hci_answer *a, hci_held_worth *first, 
     return status == HCI_ERROR_NUMERIC ? HCI_OK : status;
 }
 
+/* Whether other currents of the same components make the same torque, and the smallest of them are known. */
+static bool is_free(const question *q)
+{
+    return is_at_rest(q) && q->solution->rank < q->solution->unknowns;
+}
+
 static hci_status price(question *q, hci_answer *a, hci_held *held, hci_note *note)
 {
     hci_held_worth rough;
     hci_status status = weigh(q, a, &rough, note);
-    if (status || rough.ripple_Nm <= ENOUGH * fabs(q->mean_Nm)) return status;
+    if (status || !is_free(q) || rough.ripple_Nm <= ENOUGH * fabs(q->mean_Nm)) return status;
     if (hci_answer_copy(a, &held->as_they_come)) return hci_note_memory(note, NULL, "solving");
     held->first = rough;
     if (hci_hold_is_known(q->of)) status = find_least(q, a, &held->first, &held->now, &held->is_exact, note);
@@ -209,7 +246,8 @@ static hci_status price(question *q, hci_answer *a, hci_held *held, hci_note *no
         held->first = rough;
         status = search(q, &held->first, a, &held->now, note);
     }
-    held->is_worth_it = held->is_exact || held->now.ripple_Nm <= WORTH * held->first.ripple_Nm;
+    held->is_worth_it = held->is_exact || (held->now.ripple_Nm <= WORTH * held->first.ripple_Nm &&
+                                           is_same_torque(q, &held->first, &held->now));
     return status || held->is_worth_it ? status : ask_at(q, 0.0, a, &held->now, note);
 }
 
@@ -222,6 +260,8 @@ hci_status hci_held_answer(const hci_limited *of, hci_answer *a, bool *has_parts
                            o->method != HCI_METHOD_POINTWISE;
     hci_status status = ask(&q, a, note);
     if (!status && is_priced) status = price(&q, a, held, note);
+    if (!status && !is_at_rest(&q))
+        status = hci_newton_come_nearer(of->task, o, of->at, a, of->solution, note);
     *has_parts = !o->held && hci_task_is_linear(of->task) && !q.is_given;
     return status;
 }
@@ -231,7 +271,7 @@ static hci_status missed_of(const question *q, const hci_held *held, const hci_a
                             hci_note *note)
 {
     const size_t n = 2 * a->set.count;
-    hci_held_worth w = {0.0, 0.0};
+    hci_held_worth w = {0.0, 0.0, 0.0};
     double *x = hci_memory_new(n, sizeof *x);
     const hci_hold_question exact = {q->of, &a->set, x, 0.0, 0.0};
     hci_status status = x ? HCI_OK : hci_note_memory(note, NULL, "solving");

@@ -5,9 +5,10 @@
 
 #include "host/solution/limited.h"
 
-/* What the loop misses of currents, peak to peak, and their mean of i_a² + i_b² + i_c². */
+/* What the loop misses of currents, peak to peak, their mean of i_a² + i_b² + i_c², and the largest error of
+ * an order of the torque that they make as they are. */
 typedef struct {
-    double ripple_Nm, copper_A2;
+    double ripple_Nm, copper_A2, error_Nm;
 } hci_held_worth;
 
 /* What was done that the loop misses less. */
@@ -21,8 +22,9 @@ typedef struct {
 /* The currents without limits, by the method that the options and the machine ask for. With
  * options->sample_rad those of the same torque of which the loop misses least, within 1.5 times the copper
  * and the dc link, where R and L are known and the torque is linear (hold_least.h); else the squares of high
- * orders are priced until the copper is that. Either ends at a ripple of 1 % of the mean torque. Neither
- * where that takes less than a tenth of the ripple away. Leaves the price in the task. has_parts: out,
+ * orders are priced until the copper is that, or the torque would not be the same any more. Either ends at a
+ * ripple of 1 % of the mean torque. Neither where that takes less than a tenth of the ripple away, nor where
+ * the torque determines the currents. Leaves the price in the task. has_parts: out,
  * whether the first column of the answer is what 1 N·m more takes. held: in {0}, out what was done; its
  * as_they_come to be released in any case. */
 hci_status hci_held_answer(const hci_limited *of, hci_answer *answer, bool *has_parts, hci_held *held,

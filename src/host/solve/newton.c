@@ -9,6 +9,7 @@
 
 #include "host/base/memory.h"
 #include "host/numeric/anderson.h"
+#include "host/solve/damped.h"
 #include "host/solve/linear.h"
 #include "host/solve/linearise.h"
 #include "host/solve/pointwise.h"
@@ -49,22 +50,6 @@ typedef struct {
 
 /* ---- currents ---- */
 
-/* Waves of a set at coordinates x (2·count), and in front what is held. */
-static hci_status waves_of(const hci_task *t, const hci_component_set *set, const double *x, hci_wave_list *i,
-                           hci_note *note)
-{
-    hci_wave *wave = hci_memory_new(set->count + 1, sizeof *wave);
-    if (!wave) return hci_note_memory(note, NULL, "Newton's method");
-    hci_memory_free(i->wave);
-    i->wave = wave;
-    i->count = 0;
-    if (t->held) wave[i->count++] = *t->held;
-    for (size_t k = 0; k < set->count; ++k)
-        wave[i->count++] =
-            (hci_wave){set->component[k].order, set->component[k].sequence, x[2 * k], x[2 * k + 1]};
-    return HCI_OK;
-}
-
 /* Coordinates of an answer at the wanted mean torque, to be freed; NULL when memory is out. */
 static double *coordinates(const hci_task *t, const hci_answer *a)
 {
@@ -81,7 +66,7 @@ static hci_status current_of(const hci_task *t, const hci_answer *a, hci_wave_li
 {
     double *x = coordinates(t, a);
     const hci_status status =
-        x ? waves_of(t, &a->set, x, i, note) : hci_note_memory(note, NULL, "Newton's method");
+        x ? hci_set_waves(&a->set, x, t->held, i, note) : hci_note_memory(note, NULL, "Newton's method");
     if (!status) i->count = hci_waves_join(i->wave, i->count, NEGLIGIBLE);
     hci_memory_free(x);
     return status;
@@ -166,7 +151,7 @@ static hci_status search_line(newton *n, const hci_component_set *set, const dou
          share *= 0.5) { /* 2 stands for the accelerated step */
         for (size_t k = 0; share < 2.0 && k < 2 * set->count; ++k)
             n->x[k] = from[k] + share * (g[k] - from[k]);
-        status = waves_of(n->task, set, n->x, &n->current, note);
+        status = hci_set_waves(set, n->x, n->task->held, &n->current, note);
         if (!status)
             status = hci_torque_error_evaluate(n->task, n->current.wave, n->current.count, &now, note);
         if (now.square_sum <= before_Nm2) break;
@@ -221,7 +206,7 @@ static hci_status move_on(newton *n, const hci_answer *next, hci_note *note)
         status = follow(n, &next->set, g, note);
         hci_memory_free(g);
     }
-    return status ? status : waves_of(n->task, &next->set, n->x, &n->current, note);
+    return status ? status : hci_set_waves(&next->set, n->x, n->task->held, &n->current, note);
 }
 
 static double top_order(const hci_component_set *set)
@@ -345,11 +330,16 @@ static hci_status find(newton *n, hci_answer *answer, hci_note *note)
     if (status || (change <= CONVERGED && !is_few)) {
         hci_answer_release(&best.answer);
         *answer = n->answer;
-    } else {
-        hci_answer_release(&n->answer);
-        *answer = best.answer;
+        return status;
     }
-    return status;
+    hci_answer_release(&n->answer);
+    *answer = best.answer;
+    return HCI_OK;
+}
+
+static manner manner_of(const hci_solve_options *o)
+{
+    return o->choose_at_most > 0 ? MIDDLE : o->set ? DESCEND : MIX;
 }
 
 hci_status hci_newton_answer(hci_task *task, const hci_solve_options *options, hci_linear_torque *at,
@@ -357,7 +347,7 @@ hci_status hci_newton_answer(hci_task *task, const hci_solve_options *options, h
 {
     newton n = {.task = task, .options = options, .at = at, .solution = solution};
     hci_status status;
-    n.manner = options->choose_at_most > 0 ? MIDDLE : options->set ? DESCEND : MIX;
+    n.manner = manner_of(options);
     status = begin(&n, note);
     if (!status) {
         keep_in_set(&n);
@@ -367,5 +357,87 @@ hci_status hci_newton_answer(hci_task *task, const hci_solve_options *options, h
     hci_memory_free(n.current.wave);
     hci_memory_free(n.x);
     hci_anderson_release(&n.mixing);
+    return status;
+}
+
+/* ---- where it does not rest ---- */
+
+/* What a component has of the currents that Newton's method begins with. */
+static void take_wave(const hci_wave_list *i, hci_component c, double *x)
+{
+    x[0] = x[1] = 0.0;
+    for (size_t k = 0; k < i->count; ++k)
+        if (is_same(c, &i->wave[k])) {
+            x[0] = i->wave[k].sine;
+            x[1] = i->wave[k].cosine;
+        }
+}
+
+/* Where damped steps begin: at the nearest answer, or at the shortest currents angle by angle, which Newton's
+ * method may have left far behind; from which the torque comes nearer. */
+static hci_status descend_from(newton *n, const hci_answer *a, bool is_anew, hci_damped *d, hci_note *note)
+{
+    const size_t unknowns = 2 * a->set.count;
+    hci_status status = is_anew ? begin(n, note) : HCI_OK;
+    *d = (hci_damped){.task = n->task, .at = n->at, .set = &a->set, .enough_Nm = n->solution->tolerance_Nm};
+    d->x = is_anew ? hci_memory_new(unknowns, sizeof *d->x) : coordinates(n->task, a);
+    if (!status && !d->x) status = hci_note_memory(note, NULL, "Newton's method");
+    for (size_t k = 0; is_anew && k < a->set.count && !status; ++k)
+        take_wave(&n->current, a->set.component[k], d->x + 2 * k);
+    return status ? status : hci_damped_descend(d, note);
+}
+
+/* Puts currents into the answer that has their components. */
+static void put(const hci_damped *d, hci_answer *a)
+{
+    const size_t unknowns = 2 * a->set.count;
+    memset(a->x, 0, unknowns * sizeof *a->x);
+    memcpy(a->x + unknowns, d->x, unknowns * sizeof *a->x);
+}
+
+/* The least squared error with the components of the answer, from either beginning. */
+static hci_status descend_again(newton *n, hci_answer *a, hci_note *note)
+{
+    hci_damped from_here, anew = {0};
+    hci_status status = descend_from(n, a, false, &from_here, note);
+    if (!status) status = descend_from(n, a, true, &anew, note);
+    if (!status) {
+        const hci_damped *const best = anew.square_Nm2 < from_here.square_Nm2 ? &anew : &from_here;
+        put(best, a);
+        n->solution->newton_steps += from_here.steps + anew.steps;
+        n->solution->newton_change = best->change;
+        n->solution->newton_converged = best->is_at_rest;
+    }
+    hci_memory_free(from_here.x);
+    hci_memory_free(anew.x);
+    return status;
+}
+
+/* Makes the task linear at an answer, and says which system that is. */
+static hci_status describe(newton *n, const hci_answer *a, hci_note *note)
+{
+    hci_status status = current_of(n->task, a, &n->current, note);
+    if (!status) status = hci_task_linearise(n->task, n->current.wave, n->current.count, n->at, note);
+    return status ? status : hci_linear_describe(n->task, a, n->solution, note);
+}
+
+/* Components that cannot make the torque have one best answer, to which full steps need not lead. */
+static bool is_to_descend(const newton *n, const hci_answer *a)
+{
+    const bool is_all = !n->options->set || n->options->compare == HCI_COMPARE_ALL;
+    return n->manner != MIDDLE && is_all && a->set.count <= HCI_DAMPED_MOST;
+}
+
+hci_status hci_newton_come_nearer(hci_task *task, const hci_solve_options *options, hci_linear_torque *at,
+                                  hci_answer *answer, hci_solution *solution, hci_note *note)
+{
+    newton n = {.task = task, .options = options, .at = at, .solution = solution};
+    hci_status status = HCI_OK;
+    n.manner = manner_of(options);
+    if (is_to_descend(&n, answer)) {
+        status = descend_again(&n, answer, note);
+        if (!status) status = describe(&n, answer, note);
+    }
+    hci_memory_free(n.current.wave);
     return status;
 }

@@ -13,4 +13,12 @@
 hci_status hci_newton_answer(hci_task *task, const hci_solve_options *options, hci_linear_torque *at,
                              hci_answer *answer, hci_solution *solution, hci_note *note);
 
+/* Where hci_newton_answer has not come to rest (newton_converged): replaces the currents of the answer by
+ * those of the same components with a squared error of the torque that is least in their neighbourhood, or
+ * with which the target is reached. Of currents with the same error it is not that of the least copper.
+ * Nothing is done for a choice of few components, for a comparison of few orders, and beyond HCI_DAMPED_MOST
+ * components. HCI_ERROR_NUMERIC, _MEMORY, _STOPPED. */
+hci_status hci_newton_come_nearer(hci_task *task, const hci_solve_options *options, hci_linear_torque *at,
+                                  hci_answer *answer, hci_solution *solution, hci_note *note);
+
 #endif

@@ -74,6 +74,22 @@ static void test_the_least_is_missed(void)
     TEST_ASSERT_TRUE(missed_percent < 1.8);
 }
 
+/* Machine C has reluctance, and at 3000 rpm the sampling at 10 kHz leaves orders up to 12 of the rotor frame,
+ * which do not make a torque without ripple: what little freedom there is is no reason to give torque away.
+ */
+static void test_torque_is_not_given_away_with_reluctance(void)
+{
+    hci_note note = {{0}};
+    solving_end();
+    solving_start("data/machine_c", 8.0);
+    options.sample_rad = 200.0 * HCI_PI * 1e-4;
+    options.highest_rotor_order = 12.0;
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_NOT_REACHED, hci_solve(&machine, &options, &solution, &note), note.text);
+    TEST_ASSERT_TRUE(solution.newton_converged);
+    TEST_ASSERT_DOUBLE_WITHIN(0.02, 8.0, solution.order[0].torque_Nm.cosine);
+    TEST_ASSERT_TRUE(solution.worst_error_Nm < 0.1);
+}
+
 /* Turning the other way, the mirror image of the machine (e(θ) and T_cog(θ) become −e(−θ) and −T_cog(−θ))
  * with the negative torque takes the same, but for the angles at which the loop is looked at. */
 static void test_the_other_direction_is_a_mirror_image(void)
@@ -130,6 +146,7 @@ int main(void)
     RUN_TEST(test_a_sine_between_its_samples);
     RUN_TEST(test_high_orders_are_priced);
     RUN_TEST(test_the_least_is_missed);
+    RUN_TEST(test_torque_is_not_given_away_with_reluctance);
     RUN_TEST(test_the_other_direction_is_a_mirror_image);
     RUN_TEST(test_what_limits_put_in_their_place_is_told);
     RUN_TEST(test_nothing_is_priced_where_little_is_missed);

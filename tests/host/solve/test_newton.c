@@ -11,9 +11,9 @@ enum { SAMPLES = 2048, L_ORDERS = 3, EMF_ORDERS = 3, POLE_PAIRS = 3 };
 
 /* test_newton_at_length has more machines. */
 #ifdef AT_LENGTH
-enum { PROMISES = 12, CHOICES = 8, MOST_COMPONENTS = 11 };
+enum { PROMISES = 12, CHOICES = 8, NEAREST = 60, MOST_COMPONENTS = 11 };
 #else
-enum { PROMISES = 4, CHOICES = 2, MOST_COMPONENTS = 7 };
+enum { PROMISES = 4, CHOICES = 2, NEAREST = 12, MOST_COMPONENTS = 7 };
 #endif
 
 /* L_s = Σ l cos(m(θ − 2πs/3) + ψ), M_s the same with its own figures; e and cogging likewise with sines. */
@@ -271,6 +271,59 @@ static void test_harmonic_balance_approaches_the_pointwise_current(void)
     hci_solution_release(&pointwise);
 }
 
+/* Sum of the squared amplitudes of what the torque is off, order by order: twice the mean square, of which
+ * the mean counts once. */
+static double squared_error_Nm2(const machine *m, const hci_solution *s)
+{
+    double sum = 0.0, squares = 0.0;
+    for (int j = 0; j < SAMPLES; ++j) {
+        double i_A[3];
+        const double theta = 2.0 * REF_PI * j / SAMPLES;
+        current_at(s, theta, i_A);
+        const double off_Nm = torque_at(m, theta, i_A) - wanted[0].torque_Nm.cosine;
+        sum += off_Nm / SAMPLES;
+        squares += off_Nm * off_Nm / SAMPLES;
+    }
+    return 2.0 * squares - sum * sum;
+}
+
+/* Least squared error after a change of one coordinate by 1 % of the current. */
+static double least_around_Nm2(const machine *m, hci_solution *s)
+{
+    const double step_A = 0.01 * sqrt(2.0 / 3.0 * s->mean_square_A2);
+    double least = HUGE_VAL;
+    for (size_t k = 0; k < s->current.count; ++k)
+        for (int part = 0; part < 4; ++part) {
+            double *x = part % 2 ? &s->current.wave[k].sine : &s->current.wave[k].cosine;
+            const double was_A = *x;
+            *x += part / 2 ? step_A : -step_A;
+            least = fmin(least, squared_error_Nm2(m, s));
+            *x = was_A;
+        }
+    return least;
+}
+
+/* Few components mostly cannot make the torque of a machine with much reluctance, where full steps lead astray: what
+ * is given in the end is nearer than all that surrounds it. */
+static void test_a_set_that_cannot_make_the_torque_comes_nearest(void)
+{
+    hci_component component[] = {{1, 1}, {5, -1}, {7, 1}, {11, -1}};
+    hci_set name[] = {HCI_SET_POS, HCI_SET_NEG, HCI_SET_POS, HCI_SET_NEG};
+    for (int trial = 0; trial < NEAREST; ++trial) {
+        const hci_component_set set = {component, name, 2 + (size_t)trial % 3, {{0}}};
+        const hci_solve_options o = {.target = &TARGET, .set = &set};
+        machine m;
+        hci_solution s;
+        make_machine(&m, ref_uniform(&seed, 0.2, 0.6));
+        want(ref_uniform(&seed, 4, 10), 6, 0.0);
+        solve(&m, &o, &s);
+        const double error_Nm2 = squared_error_Nm2(&m, &s);
+        TEST_ASSERT_TRUE(error_Nm2 < wanted[0].torque_Nm.cosine * wanted[0].torque_Nm.cosine);
+        TEST_ASSERT_TRUE(least_around_Nm2(&m, &s) > 0.999 * error_Nm2);
+        hci_solution_release(&s);
+    }
+}
+
 /* Phase currents of one ampere along and across the back-EMF; returns the length of the back-EMF. */
 static double back_emf_axes(const machine *m, double theta, double q[3], double d[3])
 {
@@ -372,6 +425,7 @@ int main(void)
     RUN_TEST(test_auto_reaches_the_target_near_the_least_copper);
     RUN_TEST(test_without_reluctance_it_is_the_linear_solution);
     RUN_TEST(test_harmonic_balance_approaches_the_pointwise_current);
+    RUN_TEST(test_a_set_that_cannot_make_the_torque_comes_nearest);
     RUN_TEST(test_gaps_of_cancel_are_where_no_root_is);
     RUN_TEST(test_unreachable_torque_is_said);
     return UNITY_END();

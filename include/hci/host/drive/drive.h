@@ -87,6 +87,13 @@ typedef struct {
     size_t count;          /* entries of waves */
 } hci_loop_level;
 
+/* The largest departures of the torque between the levels from the straight line between what two of them
+ * make, with currents that flow as they are, and the torques that were asked for there. */
+typedef struct {
+    double mean_off_Nm, mean_at_Nm; /* of the mean, with its sign */
+    double ripple_Nm, ripple_at_Nm; /* peak to peak of the departure over the angle */
+} hci_between_levels;
+
 /* Levels that are read from solutions. Start with {0}. */
 typedef struct {
     hci_loop_level *level;  /* ascending by torque */

@@ -17,14 +17,15 @@ extern "C" {
 typedef struct {
     const char *name;                /* of the table and its two files: a C identifier */
     const hci_machine_data *machine; /* as read */
-    hci_drive_data *drive;           /* as read; its defaults are filled in */
-    const hci_loop_level *levels;    /* ascending by torque, equally far apart: 1, 2, or an odd number */
-    size_t level_count;              /* entries of levels */
-    double max_error_A;              /* of a table over the angle; 0: 2e-4 of the largest current */
-    double speed_rad_per_s;          /* mechanical, up to which it is used; 0: as far as it goes */
-    hci_emit_facts facts;            /* for the header and the blob */
-    bool blob;                       /* NAME.bin too, for hci/loop_blob.h */
-    uint64_t input_hash;             /* 64-bit FNV-1a of what the currents were read from */
+    const char *machine_folder;   /* whose effects.csv acts on what is told between levels; NULL: not told */
+    hci_drive_data *drive;        /* as read; its defaults are filled in */
+    const hci_loop_level *levels; /* ascending by torque, equally far apart: 1, 2, or an odd number */
+    size_t level_count;           /* entries of levels */
+    double max_error_A;           /* of a table over the angle; 0: 2e-4 of the largest current */
+    double speed_rad_per_s;       /* mechanical, up to which it is used; 0: as far as it goes */
+    hci_emit_facts facts;         /* for the header and the blob */
+    bool blob;                    /* NAME.bin too, for hci/loop_blob.h */
+    uint64_t input_hash;          /* 64-bit FNV-1a of what the currents were read from */
 } hci_emit_loop_request;
 
 /* What it has become. */
@@ -46,9 +47,10 @@ typedef struct {
                                 * well     they tell one another; NAN: there is none, or it is not known */
     double response_ripple_percent; /* of the mean torque, peak to peak, that compensation can be left with by
                                      * that at response_rad_per_s; NAN likewise, and without a torque */
-    double response_rad_per_s; /* mechanical: the speed asked for, or the highest that all orders are whole
-                                * at; 0: none */
-    uint32_t crc32;            /* of the waves */
+    double response_rad_per_s;  /* mechanical: the speed asked for, or the highest that all orders are whole
+                                 * at; 0: none */
+    hci_between_levels between; /* NAN with one level, and where it is not told */
+    uint32_t crc32;             /* of the waves */
 } hci_emit_loop_result;
 
 /* Writes NAME.h and NAME.c into `folder`, and NAME.bin where asked for, all or none; same request, same
