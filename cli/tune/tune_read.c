@@ -255,11 +255,15 @@ static bool is_of_angle(const char *relation)
     return false;
 }
 
-/* Whether an electrical speed was logged beside a mechanical angle. */
-static bool has_electrical_speed(const cli_tuning *t)
+/* Whether an electrical speed was logged beside a mechanical angle, or a mechanical one beside an electrical.
+ */
+static bool has_speed_to_count(const cli_tuning *t)
 {
-    for (size_t k = 0; k < t->runs.count; ++k)
-        if (t->runs.run[k].speed_is_electrical && !t->runs.run[k].is_electrical) return true;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        if (r->speed_rad_per_s && r->speed_window == 0 && r->speed_is_electrical != r->is_electrical)
+            return true;
+    }
     return false;
 }
 
@@ -272,7 +276,7 @@ static bool counts_pole_pairs(const cli_tuning *t, const hci_check *c)
         for (size_t n = 0; n < sizeof NAMES / sizeof *NAMES; ++n)
             if (strcmp(c->evidence[k].name, NAMES[n]) == 0) return true;
     for (size_t k = 0; k < c->evidences; ++k)
-        if (strcmp(c->evidence[k].name, "angle_speed") == 0) return has_electrical_speed(t);
+        if (strcmp(c->evidence[k].name, "angle_speed") == 0) return has_speed_to_count(t);
     return false;
 }
 

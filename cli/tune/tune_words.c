@@ -833,6 +833,14 @@ static const char *verdict_of(const cli_tuning *t)
                                                            : "tuned, with something left open";
 }
 
+static void say_errors(cli_tuning *t)
+{
+    if (strstr(t->tuning.part[HCI_TUNING_FOUND], "±") != NULL)
+        hci_tuning_say(&t->tuning, HCI_TUNING_FOUND,
+                       "± is a standard deviation of the noise alone; what the model lacks, and constants of "
+                       "the sheet that are off, come on top.");
+}
+
 void cli_tune_conclude(cli_tuning *t)
 {
     hci_tuning *r = &t->tuning;
@@ -841,6 +849,7 @@ void cli_tune_conclude(cli_tuning *t)
     say_unknown(t);
     if (hangs_on_lag(t)) say_lag(t);
     say_next(t);
+    say_errors(t);
     r->good = t->is_emitted && !t->diagnosed && !r->solved && !t->has_doubt && !is_of_no_use(t) &&
               !cli_tune_is_short(t) && !(t->once_a_turn_Nm > 0.0) && !is_far_beyond(t) &&
               cli_tune_clipped(t) == 0 && cli_tune_torque_clipped(t) == 0 && !is_never_seen(t) &&
