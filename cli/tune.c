@@ -8,6 +8,7 @@
 #include "cli/terminal/terminal.h"
 #include "cli/tune/tune_found.h"
 #include "cli/tune/tune_options.h"
+#include "cli/tune/tune_sensor_zero.h"
 #include "cli/tune/tune_size.h"
 #include "cli/tune/tune_words.h"
 
@@ -17,6 +18,7 @@ static hci_status steps(const cli_arguments *a, cli_tuning *t, hci_note *note)
     if (!status) status = cli_tune_read(t, note);
     if (!status) status = cli_tune_check(t, note);
     if (!status) status = cli_tune_leave_out(t, note);
+    if (!status) status = cli_tune_take_sensor_zero(t, note);
     if (!status) status = cli_tune_waveforms(t, note);
     if (!status) status = cli_tune_diagnose(t, note);
     if (!status && t->has_diagnosis) cli_tune_say_diagnosis(t);

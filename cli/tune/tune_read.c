@@ -12,6 +12,7 @@
 #include "cli/tune/tune_read.h"
 #include "cli/tune/tune_suspect.h"
 #include "hci/host/currents/target.h"
+#include "hci/host/emit/emit.h"
 #include "hci/host/report/write.h"
 #include "hci/host/waveform/waveform.h"
 #include "hci/math/harmonic.h"
@@ -54,17 +55,29 @@ hci_status cli_tune_list_logs(cli_tuning *t, hci_note *note)
     return hci_tuning_write_list(t->out, a->word, a->words, test, note);
 }
 
-hci_status cli_tune_begin(const cli_arguments *a, cli_tuning *t, hci_note *note)
+/* What can be refused before any work. */
+static hci_status check_words(const cli_arguments *a, hci_note *note)
 {
-    hci_status status;
-    t->arguments = a;
-    t->out = a->value[TUNE_OUT];
-    if (!t->out || !*t->out)
+    if (!a->value[TUNE_OUT] || !*a->value[TUNE_OUT])
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "tune: add --out FOLDER, a new folder for the results");
     if (a->given[TUNE_RUNS] && a->words != 1)
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
                             "tune: found %zu words, expected one machine beside --runs LIST", a->words);
-    status = cli_tune_claim_folder(t->out, note);
+    for (size_t k = 0; k < a->words; ++k)
+        for (size_t other = 0; other < k; ++other)
+            if (strcmp(a->word[k], a->word[other]) == 0)
+                return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                                    "tune: found the log %s twice, expected each one once; leave one out",
+                                    a->word[k]);
+    return a->given[TUNE_NAME] ? hci_emit_check_name(a->value[TUNE_NAME], note) : HCI_OK;
+}
+
+hci_status cli_tune_begin(const cli_arguments *a, cli_tuning *t, hci_note *note)
+{
+    t->arguments = a;
+    t->out = a->value[TUNE_OUT];
+    hci_status status = check_words(a, note);
+    if (!status) status = cli_tune_claim_folder(t->out, note);
     if (status) return status;
     cli_tune_note(t, "#!/bin/sh\n# What tune did, step by step, from the folder where it was called: sh "
                      "commands.sh NEW_FOLDER\n"
@@ -144,6 +157,7 @@ hci_status cli_tune_read_inputs(cli_tuning *t, hci_note *note)
     t->reading.run.inertia_kgm2 = t->declared.inertia_kgm2;
     t->reading.run.torque_constant_Nm_per_A = hci_machine_torque_constant(&t->declared);
     status = hci_runs_read(t->list, &(hci_runs_options){t->reading.run, cli_progress, NULL}, &t->runs, note);
+    if (status && t->is_own) hci_tuning_name_log(t->out, a->word, a->words, note);
     if (!status) cli_tune_cover_set(t);
     return status;
 }
@@ -241,14 +255,28 @@ static bool is_of_angle(const char *relation)
     return false;
 }
 
+/* Whether an electrical speed was logged beside a mechanical angle, or a mechanical one beside an electrical.
+ */
+static bool has_speed_to_count(const cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        if (r->speed_rad_per_s && r->speed_window == 0 && r->speed_is_electrical != r->is_electrical)
+            return true;
+    }
+    return false;
+}
+
 /* Whether something in the files counts the pole pairs. The orders of a ripple do not: motors with other
  * slots and half or twice the poles have them too. */
-static bool counts_pole_pairs(const hci_check *c)
+static bool counts_pole_pairs(const cli_tuning *t, const hci_check *c)
 {
     static const char *const NAMES[] = {"current_order", "voltage_order", "angle_ratio", "frequency_speed"};
     for (size_t k = 0; k < c->evidences; ++k)
         for (size_t n = 0; n < sizeof NAMES / sizeof *NAMES; ++n)
             if (strcmp(c->evidence[k].name, NAMES[n]) == 0) return true;
+    for (size_t k = 0; k < c->evidences; ++k)
+        if (strcmp(c->evidence[k].name, "angle_speed") == 0) return has_speed_to_count(t);
     return false;
 }
 
@@ -312,7 +340,7 @@ static void judge_torque_way(cli_tuning *t)
 
 static void judge_check(cli_tuning *t, const hci_check *c)
 {
-    t->counts_pole_pairs = counts_pole_pairs(c);
+    t->counts_pole_pairs = counts_pole_pairs(t, c);
     for (size_t k = 0; k < c->evidences && c->verdict != HCI_CHECK_CONSISTENT; ++k)
         judge_torque(t, &c->evidence[k]);
     judge_ambiguous(t, c);

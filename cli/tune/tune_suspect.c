@@ -136,7 +136,7 @@ static double about_mean_Nm2(const way_sum *w)
 cli_tune_torque_way cli_tune_torque_way_of(const cli_tuning *t)
 {
     way_sum way[2] = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
-    cli_tune_torque_way x = {0.0, false, t->runs.count};
+    cli_tune_torque_way x = {0.0, 0.0, false, t->runs.count};
     for (size_t k = 0; k < t->runs.count; ++k) {
         const hci_run *r = &t->runs.run[k];
         if (r->torque_source != HCI_TORQUE_MEASURED || !r->torque_Nm || !r->speed_rad_per_s || !r->time_s ||
@@ -150,6 +150,7 @@ cli_tune_torque_way cli_tune_torque_way_of(const cli_tuning *t)
     const double forward_Nm = way[0].torque_Nm / fmax(way[0].samples, 1.0),
                  back_Nm = way[1].torque_Nm / fmax(way[1].samples, 1.0),
                  ripple_Nm = sqrt((about_mean_Nm2(&way[0]) + about_mean_Nm2(&way[1])) / samples);
+    x.mean_Nm = way[0].samples > way[1].samples ? forward_Nm : back_Nm;
     x.has_both = fmin(way[0].samples, way[1].samples) > A_WAY * samples;
     x.drives_Nm = x.has_both                        ? 0.5 * (forward_Nm - back_Nm)
                   : way[0].samples > way[1].samples ? forward_Nm

@@ -13,6 +13,7 @@ void cli_tune_suspect(cli_tuning *tune);
 /* Of a torque that was measured without current, which friction makes brake. */
 typedef struct {
     double drives_Nm; /* mean with the motion: half the difference of two directions; 0: it brakes */
+    double mean_Nm;   /* as it was read, in the direction with more samples */
     bool has_both;    /* directions */
     size_t run;       /* the first with such a torque */
 } cli_tune_torque_way;

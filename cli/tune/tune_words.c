@@ -427,6 +427,14 @@ static const char *becomes(double before_Nm, double after_Nm)
     return after_Nm < before_Nm ? "falls to" : "becomes one of";
 }
 
+/* To three digits, of a limit. */
+static double rounded_up(double value)
+{
+    if (!(value > 0.0) || !isfinite(value)) return value;
+    const double digit = pow(10.0, floor(log10(value)) - 2.0);
+    return ceil(value / digit - 1e-9) * digit;
+}
+
 /* A bound above what a plain sine leaves promises nothing. */
 static void say_bound(const hci_expected_ripple *e, double before_Nm, double after_Nm, char *text,
                       size_t size)
@@ -436,12 +444,12 @@ static void say_bound(const hci_expected_ripple *e, double before_Nm, double aft
             text, size,
             "A ripple of %.3g N·m from peak to peak falls to at most %.3g N·m on the machine (95 %%), of "
             "which the table %.2g",
-            before_Nm, e->peak_to_peak_Nm, e->table_peak_to_peak_Nm);
+            before_Nm, rounded_up(e->peak_to_peak_Nm), e->table_peak_to_peak_Nm);
     else
         snprintf(text, size,
                  "A ripple of %.3g N·m from peak to peak %s %.3g N·m in the model; on the machine it is at "
                  "most %.3g N·m (95 %%), so that the recordings do not promise less than without the table",
-                 before_Nm, becomes(before_Nm, after_Nm), after_Nm, e->peak_to_peak_Nm);
+                 before_Nm, becomes(before_Nm, after_Nm), after_Nm, rounded_up(e->peak_to_peak_Nm));
 }
 
 /* The largest torque that a recording shows by a sensor, by an acceleration or by its currents. */
@@ -617,7 +625,14 @@ static void append_of_logs(cli_tuning *t)
 /* What the size and the sign of a torque make doubtful. */
 static void append_of_doubt(cli_tuning *t)
 {
-    if (t->drives_Nm > 0.0 && t->is_solved)
+    if (t->has_sensor_zero && t->is_solved)
+        append(t,
+               "; the torque without current is %.3g N·m with the motion on average, where friction brakes: "
+               "that "
+               "is taken for the zero of its sensor; if its sign is the other one instead (--column "
+               "torque=-COLUMN) the table doubles the ripple; one direction does not tell, a turn back does",
+               t->drives_Nm);
+    else if (t->drives_Nm > 0.0 && t->is_solved)
         append(t,
                "; the torque without current is %.3g N·m with the motion on average, where friction brakes: "
                "either its zero is off, or its sign is the other one (--column torque=-COLUMN) and the table "
@@ -667,7 +682,8 @@ static void append_of_torque(cli_tuning *t)
 static void append_of_machine(cli_tuning *t)
 {
     if (is_uncounted(t))
-        append(t, "; that there are %d pole pairs is not in these logs", t->declared.model.pole_pairs);
+        append(t, "; that there are %d pole pairs is taken on trust, since nothing in these logs counts them",
+               t->declared.model.pole_pairs);
     if (t->is_solved && lacks_sign(t))
         append(t, "; the sign of i_q is not told, and with the other one it doubles");
     if (is_off_sheet(t))
@@ -817,6 +833,14 @@ static const char *verdict_of(const cli_tuning *t)
                                                            : "tuned, with something left open";
 }
 
+static void say_errors(cli_tuning *t)
+{
+    if (strstr(t->tuning.part[HCI_TUNING_FOUND], "±") != NULL)
+        hci_tuning_say(&t->tuning, HCI_TUNING_FOUND,
+                       "± is a standard deviation of the noise alone; what the model lacks, and constants of "
+                       "the sheet that are off, come on top.");
+}
+
 void cli_tune_conclude(cli_tuning *t)
 {
     hci_tuning *r = &t->tuning;
@@ -825,6 +849,7 @@ void cli_tune_conclude(cli_tuning *t)
     say_unknown(t);
     if (hangs_on_lag(t)) say_lag(t);
     say_next(t);
+    say_errors(t);
     r->good = t->is_emitted && !t->diagnosed && !r->solved && !t->has_doubt && !is_of_no_use(t) &&
               !cli_tune_is_short(t) && !(t->once_a_turn_Nm > 0.0) && !is_far_beyond(t) &&
               cli_tune_clipped(t) == 0 && cli_tune_torque_clipped(t) == 0 && !is_never_seen(t) &&
@@ -862,7 +887,7 @@ static void show_before_and_after(const cli_tuning *t)
     char expected[64] = "not known";
     swing_of(t, &before_Nm, &after_Nm);
     if (e->state == HCI_RIPPLE_KNOWN)
-        snprintf(expected, sizeof expected, "at most %.3g N·m (95 %%)", e->peak_to_peak_Nm);
+        snprintf(expected, sizeof expected, "at most %.3g N·m (95 %%)", rounded_up(e->peak_to_peak_Nm));
     if (after_Nm < s->tolerance_Nm) after_Nm = 0.0;
     cli_say("                              plain sine   with the table   to expect on the machine\n");
     if (!hci_tuning_knows_ripple(s))

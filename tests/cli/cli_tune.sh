@@ -127,13 +127,14 @@ slow_turn() {
 slow_turn slow.csv 0.1
 run 0 tune slow.csv --pole-pairs 7 --kv 120 -o slow
 check "not said: turned slowly forward and back" grep -q 'turned slowly forward and back' slow/summary.json
-says '^tuned: .* in the model; what harmonics of the real back-EMF add under load is not known; that there are 7 pole pairs is not in these logs$' \
+says '^tuned: .* in the model; what harmonics of the real back-EMF add under load is not known$' \
     'Where the electrical zero is: ' '  order 12: 0\.02[0-9]* ± ' '--max-order 60'
 check "cogging torque is found twice: $(grep -c 'cogging' "$work/stdout")" [ "$(grep -c '^  order 12: ' "$work/stdout")" = 0 ]
 check "what was not looked at is known to 0 ± 0" [ "$(grep -c '= 0 ± 0' slow/summary.json)" -eq 0 ]
 check "a shaft with friction has sensors to correct" [ "$(grep -c 'true current' slow/currents/summary.json)" -eq 0 ]
 check "a map of one electrical turn for a table of several" grep -q 'emit slow/currents --name tuned --for moteus ' slow/summary.json
-check "not said up to which torque, or who counts the pole pairs" [ "$(grep -c 'N·m, for which it was solved\|nothing in these logs counts them' slow/summary.json)" -eq 2 ]
+check "not said up to which torque" grep -q 'N·m, for which it was solved' slow/summary.json
+check "the electrical speed does not count the pole pairs" [ "$(grep -c 'nothing in these logs counts them' slow/summary.json)" -eq 0 ]
 check "the table's period is not said" grep -q "the angle is $(sed -n 's/.*2^32 = \([0-9]* electrical turns*\).*/\1/p' slow/table/tuned.h) from" slow/summary.json
 # the same in two files, one for each direction: neither of them tells it by itself
 slow_turn both.csv 0.02
@@ -226,6 +227,6 @@ awk 'BEGIN { srand(3); print "time_s,theta_m_rad,speed_rad_per_s"; J = 2.1e-4; w
         if (n % 10 == 0) printf "%.4f,%.6f,%.4f\n", n * h, x, w + 0.2 * (rand() - 0.5)
         w += h / J * (-0.006 - 2e-5 * w + 0.004 * sin(84 * x + 0.4)); x += h * w } }' >coast.csv
 run 1 tune coast.csv --pole-pairs 14 --kv 90 --inertia 2.1e-4 --slots 12 -o coast
-says '^a table of no use: Nothing was found .*; these recordings do not show cogging torque above order 0\.[0-9]*; that there are 14 pole pairs is not in these logs$' 'Cogging torque above the electrical order 0\.[0-9]*: '
+says '^a table of no use: Nothing was found .*; these recordings do not show cogging torque above order 0\.[0-9]*; that there are 14 pole pairs is taken on trust, since nothing in these logs counts them$' 'Cogging torque above the electrical order 0\.[0-9]*: '
 
 finish

@@ -20,7 +20,7 @@ tuned() {
 }
 crawl even.csv x i
 tuned 0 even
-says '^tuned: A ripple of 0.008.* falls to'
+says '^tuned: A ripple of 0.008.* falls to' '± is a standard deviation of the noise alone'
 
 crawl hall.csv 'int(42 * x / turn) * turn / 42' i
 tuned 1 hall
@@ -62,6 +62,38 @@ for stand in 1200 4000 6000; do
     check "a delay of one turn at one speed" [ "$(grep -Ec "channel_delay .added|time_constant" stdout)" = 0 ]
     rm -rf wait
 done
+# an encoder that flickers by one count while it stands
+driven flicker.csv -9 9 4000
+awk -F, -v OFS=, 'NR > 1 { count = int($2 / 0.0003835) + (NR < 4000 && rand() < 0.3); $2 = count * 0.0003835 } 1' flicker.csv >wait.csv
+run 0 tune wait.csv --pole-pairs 4 --kv 18.38 --slots 12 -o wait
+says "in [34][0-9]* of 12000 rows the angle stays" '  order 6: 0.0(59|6)'
+rm -rf wait
+
+# an electrical speed beside the mechanical angle counts the pole pairs, a mechanical one does not
+awk -F, -v OFS=, 'NR == 1 { $3 = "speed_e_rad_per_s" } NR > 1 { $3 *= 7 } 1' even.csv >counted.csv
+awk -F, -v OFS=, 'NR == 1 { $2 = "theta_e_rad" } NR > 1 { $2 *= 7 } 1' even.csv >counting.csv
+for log in counted counting; do
+    tuned 0 $log
+    check "$log.csv: pole pairs that the logs count are taken on trust" [ "$(grep -c 'on trust\|Whether there are 7' stdout)" = 0 ]
+done
+rm -rf even
+tuned 0 even
+says 'that there are 7 pole pairs is taken on trust, since nothing in these logs counts them$' 'Whether there are 7 pole pairs'
+
+# what can be refused before any work, and names as they were given
+run 2 tune even.csv --pole-pairs 7 --kv 100 --name 'my table' -o named
+says 'table name: found `my table`, expected a C identifier'
+check "work before the name was looked at" [ ! -e named ]
+run 2 tune even.csv even.csv --pole-pairs 7 --kv 100 -o named
+says 'found the log even.csv twice, expected each one once'
+mkdir logs
+printf 'MOT: Ready.\n1\t2\n2\t3\n3\t4\n' >logs/monitor.txt
+run 3 tune logs/monitor.txt --pole-pairs 7 --kv 100 -o named
+says '^hci-solve: logs/monitor.txt:2: found rows of 2 numbers and no line of names above them'
+run 2 solve machine --limt 3
+says 'unknown option `--limt`; did you mean `--limit-current`'
+run 2 tune even.csv --torqe 3
+says 'unknown option `--torqe`; did you mean `--torque`'
 
 crawl weight.csv x 'i + 0.3 * sin(x + 1)'
 tuned 1 weight
@@ -132,7 +164,15 @@ says '^a convention is broken: The torque in turned.csv drives the shaft by 0.0[
 check "a table of a torque of the other sign" [ ! -e turned/table ]
 sensor one.csv 1 0 -1 1
 shaft 1 one
-says 'either its zero is off, or its sign is the other one .--column torque=-COLUMN. and the table doubles the ripple'
+says 'that is taken for the zero of its sensor; if its sign is the other one instead .--column torque=-COLUMN. the table doubles the ripple'
+# a sensor that nobody tared: its mean explains nothing, the ripple about it does
+for zero in 0.2 5; do
+    sensor untared.csv 1 $zero 1 1
+    shaft 1 untared
+    says '^tuned.* falls to ' '  order 6: 0.0(59|6)'
+    check "what is taken for the zero is not said" grep -q 'N·m, drives the shaft: it is taken for the zero of the sensor' untared/summary.json
+    rm -rf untared
+done
 
 # Anti-cogging alone
 run 0 tune right.csv --pole-pairs 4 --kv 18.38 --slots 12 --torque 0 -o alone

@@ -30,14 +30,26 @@ static int distance(const char *a, const char *b)
     return d[m][n];
 }
 
+/* Twice the mistakes in a name, or one more than twice those in its first part, as limit of limit-current. */
+static int mistakes(const char *word, const char *name)
+{
+    char first[MOST_LETTERS + 1];
+    const size_t length = strcspn(name, "-");
+    const int whole = 2 * distance(word, name);
+    if (name[length] == '\0' || length > MOST_LETTERS) return whole;
+    memcpy(first, name, length);
+    first[length] = '\0';
+    return least(whole, 2 * distance(word, first) + 1);
+}
+
 const char *hci_nearest(const char *word, const char *const *names)
 {
     const char *nearest = NULL;
-    int best = 1 + (int)strlen(word) / 3; /* one mistake in three letters */
+    int best = 2 * (1 + (int)strlen(word) / 3); /* one mistake in three letters */
     if (strlen(word) < 2) return NULL;
     for (; *names; ++names) {
         const bool begins = strlen(word) > 2 && strncmp(*names, word, strlen(word)) == 0;
-        const int far = begins ? 0 : distance(word, *names);
+        const int far = begins ? 0 : mistakes(word, *names);
         if (far >= best) continue;
         best = far;
         nearest = *names;

@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "host/csv/channel_name.h"
+
 #define MECHANICAL "the mechanical angle"
 #define SR_AXES                                                                                              \
     "i_d as it stands; SyR-e's 'SR' axes have the magnet on -q: then i_d = -Iq and i_q = Id, rename them"
@@ -22,6 +24,7 @@ const hci_alias hci_aliases[] = {
     PLAIN("t", "time_s", "s", "many"),
     PLAIN("ms_today", "time_s", "ms", "VESC Tool"),
     TOLD("timestamp", "time_s", "s", "many", "the time"),
+    PLAIN("timestamps", "time_s", "s", "asammdf"),
     TOLD("datetime", "time_s", "s", "many", "the time"),
     PLAIN("x-axis", "time_s", NULL, "Keysight"),
     PLAIN("Source", "time_s", NULL, "Siglent"),
@@ -52,6 +55,9 @@ const hci_alias hci_aliases[] = {
     TOLD("position", "theta_m_rad", "rev", "moteus", MECHANICAL),
     TOLD("pos_estimate", "theta_m_rad", "turn", "ODrive", MECHANICAL),
     TOLD(".pos_estimate", "theta_m_rad", "turn", "ODrive", MECHANICAL),
+    TOLD(".pos_vel_mapper.pos_rel", "theta_m_rad", "turn", "ODrive", MECHANICAL),
+    TOLD(".pos_vel_mapper.pos_abs", "theta_m_rad", "turn", "ODrive", MECHANICAL),
+    TOLD(".servo_stats.position", "theta_m_rad", "rev", "moteus", MECHANICAL),
     PLAIN(".Position", "theta_m_rad", NULL, "Maxwell"),
     BESIDE("tau_M", "w_m", "speed_e_rad_per_s", "rad/s", "motulator",
            "the electrical speed, divided by the pole pairs"),
@@ -71,6 +77,8 @@ const hci_alias hci_aliases[] = {
     TOLD("velocity", "speed_rad_per_s", "rev/s", "moteus", "the mechanical speed"),
     TOLD("vel_estimate", "speed_rad_per_s", "turn/s", "ODrive", "the mechanical speed"),
     TOLD(".vel_estimate", "speed_rad_per_s", "turn/s", "ODrive", "the mechanical speed"),
+    TOLD(".pos_vel_mapper.vel", "speed_rad_per_s", "turn/s", "ODrive", "the mechanical speed"),
+    TOLD(".servo_stats.velocity", "speed_rad_per_s", "rev/s", "moteus", "the mechanical speed"),
     PLAIN(".Speed", "speed_rad_per_s", NULL, "Maxwell"),
     BESIDE("Fd", "Id", "id_A", "A", "SyR-e", SR_AXES),
     BESIDE("Fd", "id", "id_A", "A", "SyR-e", SR_AXES),
@@ -86,6 +94,8 @@ const hci_alias hci_aliases[] = {
     PLAIN("Iq_measured", "iq_A", "A", "ODrive"),
     PLAIN(".Id_measured", "id_A", "A", "ODrive"),
     PLAIN(".Iq_measured", "iq_A", "A", "ODrive"),
+    PLAIN(".servo_stats.d", "id_A", "A", "moteus"),
+    PLAIN(".servo_stats.q", "iq_A", "A", "moteus"),
     PLAIN("i_a", "ia_A", "A", "many"),
     PLAIN("i_b", "ib_A", "A", "many"),
     PLAIN("i_c", "ic_A", "A", "many"),
@@ -113,6 +123,7 @@ const hci_alias hci_aliases[] = {
     BESIDE("q_current", "torque", "torque_computed_Nm", "N*m", "moteus", OWN_ESTIMATE),
     TOLD("torque_estimate", "torque_computed_Nm", "N*m", "ODrive", OWN_ESTIMATE),
     TOLD(".torque_estimate", "torque_computed_Nm", "N*m", "ODrive", OWN_ESTIMATE),
+    TOLD(".servo_stats.torque", "torque_computed_Nm", "N*m", "moteus", OWN_ESTIMATE),
     TOLD("torque_actual_value", "torque_computed_Nm", "N*m", "CiA 402", OWN_ESTIMATE),
     TOLD("estimated_torque", "torque_computed_Nm", "N*m", "many", OWN_ESTIMATE),
     TOLD("torque_estimated", "torque_computed_Nm", "N*m", "many", OWN_ESTIMATE),
@@ -303,13 +314,43 @@ static bool is_alike(const char *name, size_t length, const char *alias)
     }
 }
 
+/* Where the last parts of a dotted path begin, as many as the alias has: behind a dot, or at the beginning
+ * where the alias has several. The length where it has fewer. */
+static size_t tail_of(const char *name, size_t length, const char *alias)
+{
+    size_t parts = 1, start = length;
+    for (const char *at = alias; *at != '\0'; ++at)
+        parts += *at == '.';
+    const bool is_several = parts > 1;
+    while (start > 0 && (name[start - 1] != '.' || --parts > 0))
+        --start;
+    return start > 1 || (start == 0 && is_several && parts == 1) ? start : length;
+}
+
+static bool is_path(const hci_alias *alias, const char *name, size_t length)
+{
+    const size_t start = tail_of(name, length, alias->name + 1);
+    return start != length && name[0] != '-' && !hci_channel_is_wanted(name, start) &&
+           is_alike(name + start, length - start, alias->name + 1);
+}
+
+static bool has_parts(const hci_alias *alias)
+{
+    return alias->name[0] == '.' && strchr(alias->name + 1, '.') != NULL;
+}
+
+/* One that ends as an alias of several parts is that, and no other. */
+static bool is_longer_path(const char *name, size_t length)
+{
+    for (size_t k = 0; k < hci_alias_count; ++k)
+        if (has_parts(&hci_aliases[k]) && is_path(&hci_aliases[k], name, length)) return true;
+    return false;
+}
+
 bool hci_alias_is_name(const hci_alias *alias, const char *name, size_t length)
 {
     const size_t own = strlen(alias->name);
     if (alias->beside != NULL || own == 1) return own == length && memcmp(alias->name, name, length) == 0;
     if (alias->name[0] != '.') return is_alike(name, length, alias->name);
-    size_t start = length;
-    while (start > 0 && name[start - 1] != '.')
-        --start;
-    return start > 1 && name[0] != '-' && is_alike(name + start, length - start, alias->name + 1);
+    return is_path(alias, name, length) && (has_parts(alias) || !is_longer_path(name, length));
 }

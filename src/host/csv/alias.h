@@ -21,7 +21,7 @@ extern const size_t hci_alias_count;
 
 /* Are these `length` bytes the name of the alias? Case, blanks, '_' and '-' do not count, except for an alias
  * of one letter or with `beside`, which stands as it is written. An alias ".x" is any dotted path that ends
- * with x. */
+ * with x, ".x.y" one that ends with x.y or is that. */
 bool hci_alias_is_name(const hci_alias *alias, const char *name, size_t length);
 
 #endif

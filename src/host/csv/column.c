@@ -7,6 +7,7 @@
 
 #include "host/base/memory.h"
 #include "host/base/quote.h"
+#include "host/csv/channel_name.h"
 #include "host/csv/column_name.h"
 #include "host/csv/name_words.h"
 #include "host/csv/table.h"
@@ -66,12 +67,21 @@ static bool is_given(const hci_csv *csv, size_t column)
     return false;
 }
 
-const hci_unit *hci_column_unit(const hci_csv *csv, size_t column)
+static const hci_unit *unit_of_header(const char *header)
 {
-    const char *header = hci_csv_cell(csv, 0, column);
     const hci_unit *unit = NULL;
     for (size_t at = 1; *header != '\0' && header[at] != '\0' && unit == NULL; ++at)
         unit = hci_column_unit_of_tail(header + at);
+    return unit;
+}
+
+const hci_unit *hci_column_unit(const hci_csv *csv, size_t column)
+{
+    char channel[HCI_CHANNEL_SIZE];
+    bool is_of_place;
+    const char *header = hci_csv_cell(csv, 0, column);
+    const hci_unit *unit = unit_of_header(header);
+    if (unit == NULL && hci_channel_name(header, channel, &is_of_place)) unit = unit_of_header(channel);
     return unit != NULL ? unit : hci_csv_row_unit(csv, column);
 }
 
@@ -164,6 +174,7 @@ static bool add_match(hci_column_match *result, hci_column_match next)
         (next.kind == HCI_COLUMN_OTHER_UNIT && result->kind != HCI_COLUMN_NONE))
         return true;
     const bool twice = result->kind != HCI_COLUMN_NONE && result->kind != HCI_COLUMN_OTHER_UNIT;
+    if (twice && result->column == next.column) return true; /* one column by two names */
     *result = next;
     if (twice) result->kind = HCI_COLUMN_TWICE;
     return !twice;
@@ -215,6 +226,7 @@ static hci_column_match find_by_words(const hci_csv *csv, const char *name, cons
         hci_column_match next =
             match_units(csv, column, want, of_name, hci_unit_find(said->unit, strlen(said->unit)));
         next.alias = said;
+        if (result.kind == HCI_COLUMN_ONE && strcmp(said->tool, "SINAMICS") == 0) continue; /* smoothed */
         if (next.kind != HCI_COLUMN_OTHER_UNIT && !add_match(&result, next)) break;
     }
     return result;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "hci/host/base/text.h"
+#include "host/csv/channel_name.h"
 #include "host/csv/table.h"
 
 hci_wanted_column hci_wanted_column_of(const char *name)
@@ -77,11 +78,20 @@ static bool split(const char *name, const hci_wanted_column *want, const hci_uni
     return *unit != NULL;
 }
 
-bool hci_column_split(const char *name, const hci_wanted_column *want, const hci_unit **unit)
+static bool split_worded(const char *name, const hci_wanted_column *want, const hci_unit **unit)
 {
     worded_name w;
     if (split(name, want, unit)) return true;
     return take_word(name, &w) && want->unit->dimension == w.dimension && split(w.bare, want, unit);
+}
+
+bool hci_column_split(const char *name, const hci_wanted_column *want, const hci_unit **unit)
+{
+    char channel[HCI_CHANNEL_SIZE];
+    bool is_of_place;
+    if (split_worded(name, want, unit)) return true;
+    return hci_channel_name(name, channel, &is_of_place) && split_worded(channel, want, unit) &&
+           (*unit != NULL || !is_of_place);
 }
 
 static bool split_alias(const char *name, const hci_alias *alias, const hci_unit **unit)
@@ -97,7 +107,7 @@ static bool split_alias(const char *name, const hci_alias *alias, const hci_unit
     return false;
 }
 
-bool hci_column_split_alias(const char *name, const hci_alias *alias, const hci_unit **unit)
+static bool split_alias_worded(const char *name, const hci_alias *alias, const hci_unit **unit)
 {
     worded_name w;
     if (split_alias(name, alias, unit)) return true;
@@ -105,4 +115,13 @@ bool hci_column_split_alias(const char *name, const hci_alias *alias, const hci_
     const hci_unit *of_alias = hci_unit_find(alias->unit, strlen(alias->unit));
     return of_alias != NULL && of_alias->dimension == w.dimension &&
            (split_alias(w.bare, alias, unit) || split_alias(w.with_letter, alias, unit));
+}
+
+bool hci_column_split_alias(const char *name, const hci_alias *alias, const hci_unit **unit)
+{
+    char channel[HCI_CHANNEL_SIZE];
+    bool is_of_place;
+    if (split_alias_worded(name, alias, unit)) return true;
+    return hci_channel_name(name, channel, &is_of_place) && split_alias_worded(channel, alias, unit) &&
+           (!is_of_place || (*unit != NULL && alias->meaning == NULL));
 }

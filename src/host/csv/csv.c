@@ -401,6 +401,24 @@ static hci_status turn_into_table(hci_csv *csv, hci_note *note)
     return HCI_OK;
 }
 
+/* The monitor of SimpleFOC and serial ports in general write numbers and no names. */
+static hci_status refuse_bare_rows(const reader *r)
+{
+    size_t numbers;
+    char path[HCI_QUOTE_PATH_SIZE];
+    const size_t line = hci_csv_bare_rows(r->next, &numbers);
+    if (line == 0 || r->csv->has_foreword) return HCI_OK;
+    return hci_note_set(
+        r->note, HCI_ERROR_INPUT,
+        "%s:%zu: found rows of %zu numbers and no line of names above them, expected a header; put one "
+        "before "
+        "them with a name for each number, such as time_s, theta_m_rad, iq_A. SimpleFOC's monitor writes "
+        "what "
+        "monitor_variables names, in the order target, voltage_q, voltage_d, current_q_mA, current_d_mA, "
+        "shaft_velocity, shaft_angle, and no time",
+        hci_quote_path(r->csv->path, path), line, numbers);
+}
+
 static hci_status read_table(hci_csv *csv, hci_note *note)
 {
     reader r = {.csv = csv, .note = note, .line = 1};
@@ -411,7 +429,8 @@ static hci_status read_table(hci_csv *csv, hci_note *note)
     hci_csv_prepare(csv->text);
     r.next = csv->text + (strncmp(csv->text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0);
     pass_foreword(&r);
-    status = read_header(&r);
+    status = csv->leaves_holes ? refuse_bare_rows(&r) : HCI_OK;
+    if (!status) status = read_header(&r);
     if (!status) status = read_rows(&r);
     if (!status) csv->has_units = find_units(csv);
     return status;

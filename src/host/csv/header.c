@@ -177,3 +177,35 @@ const char *hci_csv_table_start(const char *text, bool *has_foreword)
     }
     return first;
 }
+
+/* ---- rows without a header ---- */
+
+enum { BARE_ROWS = 3 };
+
+/* Rows of as many numbers and nothing else, two or more; 0: it begins with others. */
+static size_t bare_rows(line_reader *r, const char *line)
+{
+    const line_kind first = classify(r, line, hci_csv_separator(line));
+    size_t rows = 0;
+    for (; rows < BARE_ROWS && *line != '\0'; ++rows, line = find_line(next_line(line))) {
+        const line_kind kind = classify(r, line, hci_csv_separator(line));
+        if (kind.count < 2 || kind.numbers != kind.count || kind.count != first.count) break;
+    }
+    return rows == BARE_ROWS ? first.count : 0;
+}
+
+size_t hci_csv_bare_rows(const char *text, size_t *numbers)
+{
+    line_reader r;
+    const char *line = find_line(text), *at = text;
+    size_t number = 1;
+    if (classify(&r, line, hci_csv_separator(line)).count > 1) return 0;
+    for (int k = 0; k < LINES_MOST && *line != '\0'; ++k, line = find_line(next_line(line))) {
+        *numbers = bare_rows(&r, line);
+        if (*numbers == 0) continue;
+        for (; at < line; at = next_line(at))
+            ++number;
+        return number;
+    }
+    return 0;
+}

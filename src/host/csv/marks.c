@@ -73,6 +73,7 @@ hci_cell_reader hci_cell_reader_of(const hci_csv *csv, const char *name, const h
     hci_cell_reader r = hci_cell_reader_plain(csv, found->column);
     r.factor = found->factor;
     if (want.unit->dimension == second->dimension) r.of_second = second->factor / want.unit->factor;
+    r.unit = want.unit;
     r.is_order = strcmp(name, "order") == 0;
     if (r.is_order && csv->pole_pairs > 0 && is_mechanical(csv, found)) r.factor /= csv->pole_pairs;
     return r;
@@ -132,6 +133,17 @@ static bool read_clock(hci_cell_reader *r, const char *cell, double *value)
     return true;
 }
 
+/* A number with its unit behind it, "1.001 sec". */
+static bool read_with_unit(const hci_cell_reader *r, const char *cell, double *value)
+{
+    const hci_unit *unit;
+    char mark = 0;
+    if (r->unit == NULL || !hci_csv_number_and_unit(cell, value, &mark, &unit)) return false;
+    if (unit->dimension != r->unit->dimension || (mark != 0 && mark != r->decimal)) return false;
+    *value *= unit->factor / r->unit->factor / r->factor;
+    return true;
+}
+
 static hci_number_kind read_number(const hci_cell_reader *r, size_t record, double *value)
 {
     *value = r->csv->number[r->column][record - 1] * r->factor;
@@ -153,8 +165,8 @@ hci_status hci_cell_read(hci_cell_reader *r, size_t record, hci_number_kind *kin
         if (*kind == HCI_NUMBER_FINITE) *kind = HCI_NUMBER_NONE;
         const hci_status status = read_marked(r, record, kind, value, note);
         if (status) return status;
-        if (*kind == HCI_NUMBER_NONE &&
-            (read_clock(r, cell, value) || (r->is_order && hci_csv_fraction(cell, value))))
+        if (*kind == HCI_NUMBER_NONE && (read_clock(r, cell, value) || read_with_unit(r, cell, value) ||
+                                         (r->is_order && hci_csv_fraction(cell, value))))
             *kind = HCI_NUMBER_FINITE;
     }
     if (*kind == HCI_NUMBER_FINITE && !isfinite(*value *= r->factor)) *kind = HCI_NUMBER_NOT_FINITE;

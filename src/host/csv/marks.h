@@ -9,11 +9,12 @@
 typedef struct {
     const hci_csv *csv;
     size_t column;
-    double factor;    /* of numbers */
-    double of_second; /* of clock times, from seconds; 0: the column is no time */
-    bool is_order;    /* a fraction is a number here */
-    char decimal;     /* mark */
-    double first_day; /* of clock times; NAN: none so far */
+    double factor;        /* of numbers */
+    double of_second;     /* of clock times, from seconds; 0: the column is no time */
+    const hci_unit *unit; /* that is asked for; NULL: any number will do */
+    bool is_order;        /* a fraction is a number here */
+    char decimal;         /* mark */
+    double first_day;     /* of clock times; NAN: none so far */
 } hci_cell_reader;
 
 /* name: the canonical one that the column was found by. */

@@ -2,7 +2,9 @@
 
 #include <string.h>
 
+#include "host/csv/channel_name.h"
 #include "host/csv/column_name.h"
+#include "host/csv/parameter_name.h"
 #include "host/csv/table.h"
 
 /* ---- the words ---- */
@@ -41,23 +43,23 @@ typedef enum {
 static const struct {
     const char *kind, *words;
 } WORDS[KINDS] = {
-    [TIME] =
-        {"time",
-         "zeit uhrzeit zeitstempel messzeit time timestamp temps heure horodatage tempo ora tiempo hora"},
+    [TIME] = {"time", "zeit uhrzeit zeitstempel messzeit time timestamp timestamps temps heure horodatage "
+                      "tempo ora tiempo hora"},
     [ANGLE] = {"angle", "winkel drehwinkel rotorwinkel wellenwinkel winkelposition rotorlage lauferlage "
-                        "laeuferlage lauferwinkel laeuferwinkel angle angolo angulo theta phi"},
+                        "laeuferlage lauferwinkel laeuferwinkel angle ang agl angolo angulo theta phi"},
     [POSITION] = {"angle, of what turns or in a unit of angle",
                   "position pos lage istlage istposition lageistwert positionsistwert posizione posicion"},
     [SPEED] =
         {"speed",
          "drehzahl istdrehzahl drehzahlistwert motordrehzahl winkelgeschwindigkeit geschwindigkeit speed "
-         "velocity vitesse regime velocita velocidad giri"},
+         "velocity velo vel spd vitesse regime velocita velocidad giri"},
     [TORQUE] = {"torque",
                 "drehmoment moment wellenmoment motormoment istmoment istdrehmoment momentenistwert "
-                "drehmomentistwert drehmomentsensor messwelle torque couple coppia par"},
-    [CURRENT] = {"current",
-                 "strom phasenstrom strangstrom motorstrom iststrom stromistwert current courant intensite "
-                 "corrente corriente intensidad"},
+                "drehmomentistwert drehmomentsensor messwelle torque trq couple coppia par"},
+    [CURRENT] =
+        {"current",
+         "strom phasenstrom strangstrom motorstrom iststrom stromistwert current curr courant intensite "
+         "corrente corriente intensidad"},
     [VOLTAGE] = {"voltage",
                  "spannung phasenspannung strangspannung klemmenspannung voltage tension tensione voltaje"},
     [TEMPERATURE] = {"temperature", "temperatur temperature temperatura"},
@@ -83,7 +85,8 @@ static const struct {
         {"rotor or motor",
          "rotor laufer laeufer motor mot moteur motore magnet aimant magnete encoder drehgeber geber codeur"},
     [SHAFT] = {"shaft", "welle motorwelle shaft arbre albero eje"},
-    [PHASE] = {"phase", "phase fase strang leiter klemme klemmen terminal terminals borne bornes morsetto"},
+    [PHASE] = {"phase",
+               "phase pha fase strang leiter klemme klemmen terminal terminals borne bornes morsetto"},
     [ALONG_D] = {"along d", "d sd feldbildend feldbildender langsstrom laengsstrom"},
     [ALONG_Q] = {"along q", "q sq momentenbildend momentenbildender querstrom"},
     [RATE] = {"rate of sampling", "standardmessrate messrate schnelle langsame default sample rate elapsed "
@@ -133,10 +136,11 @@ static bool is_letter(char c)
     return is_capital(c) || (c >= 'a' && c <= 'z');
 }
 
-/* Whether a word ends between two letters as they are written: PhaseCurrent, Strom1. */
-static bool is_edge(char before, char c, size_t length)
+/* Whether a word ends between two letters as they are written: PhaseCurrent, IPhase, Strom1. */
+static bool is_edge(char before, char c, char next, size_t length)
 {
-    if (is_capital(c)) return before >= 'a' && before <= 'z';
+    const bool is_next_small = is_letter(next) && !is_capital(next);
+    if (is_capital(c)) return is_letter(before) && (!is_capital(before) || is_next_small);
     return is_digit(c) && !is_digit(before) && length > 3;
 }
 
@@ -169,7 +173,9 @@ static bool cut(const char *name, size_t length, name_words *w)
         if (byte == 0xC3 && k + 1 < length) c = without_accent((unsigned char)name[++k]);
         if (c == '\0' || (c == name[k] && byte >= 0x80)) return false;
         const bool is_word = is_letter(c) || is_digit(c);
-        if (!is_word || (used > start && is_edge(before, c, used - start))) good = end_word(w, &start, &used);
+        if (!is_word ||
+            (used > start && is_edge(before, c, k + 1 < length ? name[k + 1] : '\0', used - start)))
+            good = end_word(w, &start, &used);
         if (is_word) good = good && put(w, &used, (char)(is_capital(c) ? c - 'A' + 'a' : c));
         if (!is_word && strchr(" _-.:,'/()", c) == NULL) return false;
         if (c == '.' && k + 1 < length && is_letter(name[k + 1]))
@@ -402,6 +408,14 @@ static bool is_sound(const name_words *w)
     return quantities == 1;
 }
 
+/* Short words that variables of programs have, in units of their own. */
+static bool is_short(const name_words *w)
+{
+    for (size_t k = 0; k < w->count; ++k)
+        if (is_among("vel velo spd", w->word[k])) return true;
+    return false;
+}
+
 /* ---- */
 
 static bool is_fitting(const hci_alias *said, const hci_unit *unit)
@@ -434,6 +448,7 @@ static const hci_alias *say(const char *name, size_t length, const hci_unit *uni
     name_words w = {.count = 0};
     const char *part = last_part(name, &length);
     const hci_alias *other = part != name ? alias_of(part, length) : NULL;
+    if (part != name && hci_channel_is_wanted(name, (size_t)(part - name))) return NULL;
     if (other != NULL) return other;
     if (*part == '-' || !cut(part, length, &w)) return NULL;
     drop_type(&w);
@@ -442,7 +457,7 @@ static const hci_alias *say(const char *name, size_t length, const hci_unit *uni
     for (size_t k = 0; k < w.count; ++k) /* "Zeit 1" */
         if (w.kind[k] == LETTER && has(&w, TIME)) w.kind[k] = NUMBER;
     read_letter(&w, unit);
-    if (!is_sound(&w)) return NULL;
+    if (!is_sound(&w) || (unit == NULL && is_short(&w))) return NULL;
     const hci_alias *said = quantity_of(&w, unit);
     return said != NULL && is_fitting(said, unit) ? said : NULL;
 }
@@ -459,11 +474,6 @@ static bool ends_in_unit(const char *name)
     return true;
 }
 
-/* Words of what is wanted, limited or put on, not of what is. */
-static const char NOT_MEASURED[] =
-    "soll sollwert vorgabe last lastmoment grenze max min ref reference command cmd setpoint demand target "
-    "limit load consigne riferimento consigna referencia reference true model residual";
-
 bool hci_name_words_like_torque(const char *name, const hci_unit *of_row)
 {
     name_words w = {.count = 0};
@@ -476,11 +486,10 @@ bool hci_name_words_like_torque(const char *name, const hci_unit *of_row)
     for (; name[used] != '\0' && used + 1 < sizeof plain; ++used) /* the words alone, whatever is between */
         plain[used] = is_letter(name[used]) || is_digit(name[used]) || (name[used] & 0x80) ? name[used] : ' ';
     plain[used] = '\0';
+    if (hci_channel_is_wanted(name, strlen(name))) return false;
     if (!cut(plain, used, &w)) return is_like;
-    for (size_t k = 0; k < w.count; ++k) {
-        if (is_among(NOT_MEASURED, w.word[k])) return false;
+    for (size_t k = 0; k < w.count; ++k)
         is_like = is_like || kind_of(w.word[k]) == TORQUE;
-    }
     return is_like;
 }
 
@@ -489,7 +498,7 @@ bool hci_name_words_are_clear(const hci_alias *said)
     return said->name[0] == '\0' && said != &OF_TORQUE[1];
 }
 
-const hci_alias *hci_name_words(const char *name, const hci_unit *of_row, const hci_unit **unit)
+static const hci_alias *say_with_unit(const char *name, const hci_unit *of_row, const hci_unit **unit)
 {
     const size_t length = strlen(name);
     *unit = NULL;
@@ -503,6 +512,17 @@ const hci_alias *hci_name_words(const char *name, const hci_unit *of_row, const 
         return said;
     }
     return ends_in_unit(name) ? NULL : say(name, length, of_row);
+}
+
+const hci_alias *hci_name_words(const char *name, const hci_unit *of_row, const hci_unit **unit)
+{
+    char channel[HCI_CHANNEL_SIZE];
+    bool is_of_place;
+    const hci_alias *said = hci_parameter_name(name, unit);
+    if (said == NULL) said = say_with_unit(name, of_row, unit);
+    if (said != NULL || !hci_channel_name(name, channel, &is_of_place)) return said;
+    said = say_with_unit(channel, of_row, unit);
+    return is_of_place && *unit == NULL && of_row == NULL ? NULL : said;
 }
 
 bool hci_column_has_known_name(const char *name)

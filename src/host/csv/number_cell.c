@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "host/base/number_read.h"
+#include "host/csv/table.h"
 
 /* ---- marks ---- */
 
@@ -224,6 +225,20 @@ bool hci_csv_fraction(const char *cell, double *value)
     if (*cell != '\0' || below == 0) return false;
     *value = (double)above / (double)below;
     return true;
+}
+
+bool hci_csv_number_and_unit(const char *cell, double *value, char *mark, const hci_unit **unit)
+{
+    char number[CELL_SIZE];
+    size_t length = strspn(cell, "+-.,0123456789");
+    if ((cell[length] == 'e' || cell[length] == 'E') && strspn(cell + length + 1, "+-0123456789") > 0)
+        length += 1 + strspn(cell + length + 1, "+-0123456789");
+    if (length == 0 || length >= sizeof number) return false;
+    memcpy(number, cell, length);
+    number[length] = '\0';
+    if (hci_number_read(number, true, value, mark) != HCI_NUMBER_FINITE) return false;
+    *unit = hci_csv_cell_unit(cell + length + strspn(cell + length, " "));
+    return *unit != NULL;
 }
 
 bool hci_csv_is_number(const char *cell)

@@ -4,6 +4,8 @@
 
 #include <stdbool.h>
 
+#include "host/base/unit_lookup.h"
+
 /* What the marks in a number are. Without any, or where it is no number, all are 0. */
 typedef struct {
     char decimal;  /* '.' or ',': certainly the decimal mark */
@@ -27,7 +29,10 @@ bool hci_csv_clock(const char *cell, double *days, double *seconds);
 /* "24/7": whole numbers from 0, and above 0 below the line. */
 bool hci_csv_fraction(const char *cell, double *value);
 
-/* Is it any of these, or a plain number with either decimal mark, or nan or inf? */
+/* "1.001 sec", "12 A": a number and a unit. mark: out, its decimal mark, 0: none. */
+bool hci_csv_number_and_unit(const char *cell, double *value, char *mark, const hci_unit **unit);
+
+/* Is it any of these but the last, or a plain number with either decimal mark, or nan or inf? */
 bool hci_csv_is_number(const char *cell);
 
 #endif

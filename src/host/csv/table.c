@@ -166,3 +166,11 @@ hci_status hci_csv_encoding_error(const hci_csv *csv, size_t line, size_t column
                                  .remedy = "save the file as CSV in UTF-8"};
     return hci_csv_fault_note(csv, &fault, note);
 }
+
+hci_status hci_csv_check_rows(const hci_csv *csv, size_t most, const char *remedy, hci_note *note)
+{
+    char path[HCI_QUOTE_PATH_SIZE];
+    if (hci_csv_rows(csv) <= most) return HCI_OK;
+    return hci_note_set(note, HCI_ERROR_INPUT, "%s: found %zu rows, expected at most %zu; %s",
+                        hci_quote_path(hci_csv_path(csv), path), hci_csv_rows(csv), most, remedy);
+}

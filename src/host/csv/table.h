@@ -87,6 +87,10 @@ char hci_csv_separator(const char *line);
  * numbers below it. has_foreword: out, whether that is so. */
 const char *hci_csv_table_start(const char *text, bool *has_foreword);
 
+/* The line, from 1, at which rows of numbers begin below lines that are no header for them, each of one cell;
+ * 0: there are none such. numbers: out, in a row. */
+size_t hci_csv_bare_rows(const char *text, size_t *numbers);
+
 /* Is a cell of the row of units one, such as "rad/s" or "(ms)"; NULL: none. */
 const hci_unit *hci_csv_cell_unit(const char *cell);
 
@@ -117,6 +121,15 @@ hci_status hci_csv_fault_note(const hci_csv *csv, const hci_csv_fault *fault, hc
 /* The same for a cell that is not UTF-8. */
 hci_status hci_csv_encoding_error(const hci_csv *csv, size_t line, size_t column, const char *cell,
                                   hci_note *note);
+
+/* How long tables may be whose work grows faster than their rows. */
+enum {
+    HCI_MOST_ORDERS_LISTED = 10000, /* rows of a spectrum, a set of components, currents */
+    HCI_MOST_RUNS_LISTED = 4096     /* recordings of a list */
+};
+
+/* HCI_ERROR_INPUT where a table has more rows than `most`; remedy: in words. */
+hci_status hci_csv_check_rows(const hci_csv *csv, size_t most, const char *remedy, hci_note *note);
 
 /* The remark on a row of units with a cell that is none. */
 #define HCI_CSV_UNIT_EXPECTED "a unit, as in the other cells"

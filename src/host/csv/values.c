@@ -37,29 +37,17 @@ static bool is_broken_unit_row(const hci_csv *csv, size_t *column)
     return units > 0 && others == 1;
 }
 
-/* A number with its unit, as 12 A or 0.5Nm. */
-static bool is_number_with_unit(const char *cell)
-{
-    char number[32];
-    double value;
-    char mark;
-    const size_t length = strspn(cell, "+-.,0123456789");
-    if (length == 0 || length >= sizeof number) return false;
-    memcpy(number, cell, length);
-    number[length] = '\0';
-    return hci_number_read(number, true, &value, &mark) == HCI_NUMBER_FINITE &&
-           hci_csv_cell_unit(cell + length + strspn(cell + length, " ")) != NULL;
-}
-
 static const char *remedy_of(const char *cell, hci_number_kind kind)
 {
     double days, value;
+    char mark;
+    const hci_unit *unit;
     if (*cell == '\0') return "fill the cell or remove the line";
     if (kind == HCI_NUMBER_NOT_FINITE) return "remove the line or correct the value";
     if (*cell == '#') return "a spreadsheet writes this for an error: correct the formula, or empty the cell";
     if (hci_csv_clock(cell, &days, &value)) return "a clock time is read in a column of time only";
     if (hci_csv_fraction(cell, &value)) return "write it as a decimal number; orders only may be fractions";
-    if (is_number_with_unit(cell))
+    if (hci_csv_number_and_unit(cell, &value, &mark, &unit))
         return "write the unit into the column's name, as in torque_mNm, and the number alone";
     return "write a number with a decimal point, e.g. 21.93";
 }

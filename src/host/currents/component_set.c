@@ -7,7 +7,7 @@
 
 #include "hci/host/base/text.h"
 #include "host/base/memory.h"
-#include "host/csv/most_rows.h"
+#include "host/csv/table.h"
 #include "host/currents/component_row.h"
 #include "host/machine/spectrum_table.h"
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "host/base/memory.h"
-#include "host/csv/most_rows.h"
+#include "host/csv/table.h"
 #include "host/currents/component_row.h"
 
 /* FNV-1a, 64 bits. */

@@ -7,9 +7,6 @@
 /* Letters of the longest table name. */
 enum { HCI_EMIT_NAME_LENGTH = 48 };
 
-/* Whether a name may be that of a table in C and C++. HCI_OK or HCI_ERROR_ARGUMENT. */
-hci_status hci_emit_check_name(const char *name, hci_note *note);
-
 /* Whether the name of a machine may stand in a comment. HCI_OK or HCI_ERROR_ARGUMENT. */
 hci_status hci_emit_check_facts(const hci_emit_facts *facts, hci_note *note);
 

@@ -6,7 +6,7 @@
 
 #include "host/base/memory.h"
 #include "host/base/quote.h"
-#include "host/csv/most_rows.h"
+#include "host/csv/table.h"
 
 #define MOST_AMPLITUDE 1e9
 

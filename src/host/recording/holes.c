@@ -361,12 +361,53 @@ static double stay_of_turning(const rows_task *t, const size_t *fresh, size_t co
     return turning >= LEAST_FRESH && stands > 0 && stands <= MOST_STANDS ? longest : 0.0;
 }
 
+#define ONE_COUNT                                                                                            \
+    1.5 /* of the smallest step of an angle, which flickers by no more while the shaft stands                \
+         */
+
+static double smallest_step(const rows_task *t, const double *value)
+{
+    double least = INFINITY;
+    for (size_t k = 1; k < t->rows; ++k) {
+        const double step = fabs(value[k] - value[k - 1]);
+        if (t->is_left[k] && t->is_left[k - 1] && step > 0.0) least = fmin(least, step);
+    }
+    return least;
+}
+
+/* Whether an angle is what it was again, a few rows later. */
+static bool is_back(const rows_task *t, const double *angle, size_t row, double last)
+{
+    for (size_t k = row + 1; k < t->rows && k <= row + LEAST_STAND; ++k)
+        if (t->is_left[k] && angle[k] <= last && angle[k] >= last) return true;
+    return false;
+}
+
+/* held: out, [rows], the angle without the steps of one count that it takes back. */
+static void hold_angle(const rows_task *t, const double *angle, double *held)
+{
+    const double count = ONE_COUNT * smallest_step(t, angle);
+    double last = NAN;
+    for (size_t k = 0; k < t->rows; ++k) {
+        const double step = fabs(angle[k] - last);
+        const bool flickers = step < count && (!(step > 0.0) || is_back(t, angle, k, last));
+        if (t->is_left[k] && !flickers) last = angle[k];
+        held[k] = last;
+    }
+}
+
 /* Friction takes of the torque of a shaft that stands what it must, and no angle tells what it is of. */
 static hci_status leave_standing_out(rows_task *t, const double *angle)
 {
-    const readings x = {{angle}, 1, "angle"};
+    double *held = hci_memory_new(t->rows + 1, sizeof *held);
+    const readings x = {{held}, 1, "angle"};
     size_t *fresh = hci_memory_new(t->rows + 1, sizeof *fresh), left_out = 0;
-    if (fresh == NULL) return memory_error(t);
+    if (fresh == NULL || held == NULL) {
+        hci_memory_free(fresh);
+        hci_memory_free(held);
+        return memory_error(t);
+    }
+    hold_angle(t, angle, held);
     const size_t count = fresh_find(t, &x, fresh);
     const double longest = stay_of_turning(t, fresh, count);
     if (longest > 0.0) left_out = stretches_leave(t, fresh, count, longest);
@@ -378,6 +419,7 @@ static hci_status leave_standing_out(rows_task *t, const double *angle)
             left_out, t->rows);
     t->still += left_out;
     hci_memory_free(fresh);
+    hci_memory_free(held);
     return HCI_OK;
 }
 

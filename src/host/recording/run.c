@@ -126,6 +126,7 @@ static hci_status read_speed(reader *r)
     hci_status status = read_column(r, HCI_RUN_SPEED, speed);
     if (status || *speed != NULL) return status;
     status = read_column(r, HCI_RUN_SPEED_E, speed);
+    r->run->speed_is_electrical = !status && *speed != NULL;
     for (size_t k = 0; !status && *speed != NULL && k < r->run->count; ++k)
         (*speed)[k] /= r->pole_pairs;
     return status;

@@ -361,8 +361,9 @@ static void tell_degrees(const hci_run_columns *c, hci_run_column which)
     char quoted[HCI_QUOTE_SIZE];
     const hci_column_match found = hci_column_find(c->csv, NAME[which]);
     const char *name = which == HCI_RUN_THETA_M ? "theta_m_deg" : "theta_e_deg", *header;
-    if ((which != HCI_RUN_THETA_M && which != HCI_RUN_THETA_E) || found.has_unit || found.alias != NULL)
-        return;
+    const char *unit = found.alias != NULL ? found.alias->unit : NULL;
+    const bool is_in_rad = found.alias == NULL || (unit != NULL && strcmp(unit, "rad") == 0);
+    if ((which != HCI_RUN_THETA_M && which != HCI_RUN_THETA_E) || found.has_unit || !is_in_rad) return;
     if (!look_like_degrees(c->value[which], c->count)) return;
     header = hci_quote(hci_csv_name(c->csv, found.column), quoted);
     hci_note_add(

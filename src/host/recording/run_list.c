@@ -7,7 +7,7 @@
 #include "host/base/memory.h"
 #include "host/base/path.h"
 #include "host/base/quote.h"
-#include "host/csv/most_rows.h"
+#include "host/csv/table.h"
 #include "host/recording/computed_torque.h"
 #include "host/recording/run_columns.h"
 #include "host/recording/untold_torque.h"

@@ -6,6 +6,7 @@
 
 #include "hci/host/csv/csv.h"
 #include "host/csv/name_words.h"
+#include "host/csv/parameter_name.h"
 #include "host/csv/table.h"
 #include "support/files.h"
 #include "support/reference.h"
@@ -159,6 +160,55 @@ static const struct {
     {"Temperatur (Temperature) Magnet [°C]", "temperature_C"},
     {"Temperatur Magnet [°C]", "temperature_C"},
     {"Temperatur Raum [°C]", ""},
+    /* a group, a source or a device around the name */
+    {"/'Messung'/'Drehmoment [Nm]'", "torque_Nm"},
+    {"/'Group 1'/'Rotorwinkel mech [deg]'", "theta_m_rad"},
+    {"/'Messung'/'torque_Nm'", "torque_Nm"},
+    {"/'Sollwerte'/'Drehmoment [Nm]'", ""},
+    {"Sollwerte/Drehmoment [Nm]", ""},
+    {"timestamps", "time_s"},
+    {"Trq_Shaft\\DAQ: 1", "torque_Nm"},
+    {"Trq_Shaft\\DAQ: 1 [Nm]", "torque_Nm"},
+    {"RotAgl_Mech\\DAQ: 1", "theta_m_rad"},
+    {"IPhaB\\XCP: 2", "ib_A"},
+    {"EngSpd\\XCP: 2", ""},
+    {"Axis 1.ActVelo [deg/s]", "speed_rad_per_s"},
+    {"Axis 1.ActVelo", ""},
+    {"Axis 1.ActPos [deg]", "unclear"},
+    {"Axis 1.SetVelo [deg/s]", ""},
+    {"Axis 1.ActCurrentQ [A]", "iq_A"},
+    {"MAIN.fbAxis.ActTorque [Nm]", "torque_computed_Nm"},
+    {"Term 3 (EL3702).Drehmoment [Nm]", "torque_Nm"},
+    {"GVL.fMechAngle [rad]", "theta_m_rad"},
+    {"Setpoint.Torque [Nm]", ""},
+    {"observer.speed", ""},
+    {"Gear.Angle mech [deg]", ""},
+    {"axis0.pos_vel_mapper.pos_rel", "theta_m_rad"},
+    {"odrv0.axis0.pos_vel_mapper.vel", "speed_rad_per_s"},
+    {"axis0.commutation_mapper.pos_rel", ""},
+    {"1.servo_stats.position", "theta_m_rad"},
+    {"servo_stats.velocity", "speed_rad_per_s"},
+    {"1.servo_stats.q_A", "iq_A"},
+    {"1.servo_stats.torque_Nm", "torque_computed_Nm"},
+    {"1.servo_control.torque_Nm", ""},
+    {"vel", ""},
+    {"vel [rpm]", "speed_rad_per_s"},
+    /* parameters of SINAMICS drives */
+    {"r0063", "speed_rad_per_s"},
+    {"r61[0] Actual speed value unsmoothed [rpm]", "speed_rad_per_s"},
+    {"Drive_1.r0078[1]: Current actual value torque-generating [Arms]", "iq_A"},
+    {"r76[0]", "id_A"},
+    {"r0080[1] Torque actual value [Nm]", "torque_computed_Nm"},
+    {"r93 Pole position angle electrically normalized [deg]", "theta_e_rad"},
+    {"r69[1]", "ib_A"},
+    {"r69[6]", ""},
+    {"r89[2]", "vc_V"},
+    {"r0060 Speed setpoint before the setpoint filter [rpm]", ""},
+    {"r0062", ""},
+    {"r0077", ""},
+    {"r0079 Torque setpoint total [Nm]", ""},
+    {"r632", ""},
+    {"r63x", ""},
 };
 
 static void test_names_in_words(void)
@@ -223,6 +273,43 @@ static void test_units_of_other_languages(void)
     }
 }
 
+/* MATLAB's writetimetable puts the unit into each cell of a duration. */
+static void test_cells_with_their_unit(void)
+{
+    hci_note note = {{0}};
+    hci_csv *csv;
+    double value;
+    TEST_ASSERT_EQUAL(HCI_OK, read_text("Time,i_q\n1.001 sec,2 A\n1.5e3 ms,20 mA\n", &csv, &note));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.5, second_number(csv, "time_s"));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.02, second_number(csv, "iq_A"));
+    hci_csv_free(csv);
+    TEST_ASSERT_EQUAL(HCI_OK, read_text("Time,i_q\n1.001 sec,2 V\n", &csv, &note));
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_csv_numbers(csv, "iq_A", &value, &note));
+    hci_csv_free(csv);
+}
+
+/* SINAMICS: i_q is logged as an rms value, the unsmoothed speed beside the smoothed one. */
+static void test_units_of_parameters(void)
+{
+    hci_note note = {{0}};
+    hci_csv *csv;
+    TEST_ASSERT_EQUAL(HCI_OK, read_text("r78[0],r61,r63\n0,0,0\n1,30,60\n", &csv, &note));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.4142135623730951, second_number(csv, "iq_A"));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, REF_PI, second_number(csv, "speed_rad_per_s"));
+    hci_csv_free(csv);
+}
+
+static void test_rows_without_names(void)
+{
+    static const char MONITOR[] =
+        "MOT: Monitor enabled!\nMOT: Ready.\n0.8\t0.1\t1\n0.8\t0.2\t2\n0.8\t0.1\t3\n";
+    hci_note note = {{0}};
+    hci_csv *csv;
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_text(MONITOR, &csv, &note));
+    text_has("table.csv:3: found rows of 3 numbers and no line of names above them", note.text);
+    text_has("shaft_velocity, shaft_angle", note.text);
+}
+
 static void test_a_clock_below_its_format(void)
 {
     hci_note note = {{0}};
@@ -256,7 +343,7 @@ static void test_two_of_one_quantity_are_refused(void)
     hci_csv_free(csv);
 }
 
-static void test_the_page_lists_every_word(void)
+static void test_the_page_lists_every_word_and_parameter(void)
 {
     char *page = malloc(1 << 20);
     const char *kind, *words;
@@ -267,6 +354,13 @@ static void test_the_page_lists_every_word(void)
     for (size_t k = 0; (words = hci_name_words_known(k, &kind)) != NULL; ++k) {
         char row[1200];
         snprintf(row, sizeof row, "| %s | %s |", kind, words);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(page, row), row);
+    }
+    const hci_alias *said;
+    char name[16];
+    for (size_t k = 0; hci_parameter_known(k, name, &said); ++k) {
+        char row[80];
+        snprintf(row, sizeof row, "| `%s` | `%s` | %s |", name, said->column, said->unit);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(page, row), row);
     }
     free(page);
@@ -321,10 +415,13 @@ int main(void)
     RUN_TEST(test_names_in_words);
     RUN_TEST(test_names_that_look_like_a_torque);
     RUN_TEST(test_units_of_other_languages);
+    RUN_TEST(test_cells_with_their_unit);
+    RUN_TEST(test_units_of_parameters);
+    RUN_TEST(test_rows_without_names);
     RUN_TEST(test_a_clock_below_its_format);
     RUN_TEST(test_what_is_told);
     RUN_TEST(test_two_of_one_quantity_are_refused);
-    RUN_TEST(test_the_page_lists_every_word);
+    RUN_TEST(test_the_page_lists_every_word_and_parameter);
     RUN_TEST(test_scope_of_twincat);
     RUN_TEST(test_the_column_of_comments_may_be_missing);
     return UNITY_END();

@@ -88,6 +88,9 @@ typedef enum {
 /* The name of a shape; a static string. */
 const char *hci_emit_shape_name(hci_emit_shape shape);
 
+/* Whether a table may have this name; NULL: none was given. HCI_ERROR_ARGUMENT. */
+hci_status hci_emit_check_name(const char *name, hci_note *note);
+
 /* What goes into a table. Start with {0}; the arrays and strings belong to the caller. */
 typedef struct {
     const char *name;           /* of the table, its two files and nothing else: a C identifier */

@@ -50,11 +50,12 @@ typedef struct {
                          it */
     bool is_unsteady; /* a holding test whose shaft sticks and slips: its current tells no cogging torque */
     bool is_clipped;  /* crests of its current stand at one value: a limit, or a sensor at its end */
-    bool torque_is_clipped;  /* its torque stood at the end of its sensor in rows that are left out */
-    bool lacks_id;           /* i_q was recorded and i_d not, which is taken as 0 */
-    bool slow_beside_others; /* a slow turn by what other recordings of its list tell, not by itself */
-    double inertia_share;    /* rms of the inertia x acceleration that was taken out of the current, over the
-                              * torque    that the current makes; 0: nothing was */
+    bool torque_is_clipped;   /* its torque stood at the end of its sensor in rows that are left out */
+    bool speed_is_electrical; /* speed_rad_per_s was recorded as that, and the pole pairs divided it */
+    bool lacks_id;            /* i_q was recorded and i_d not, which is taken as 0 */
+    bool slow_beside_others;  /* a slow turn by what other recordings of its list tell, not by itself */
+    double inertia_share;     /* rms of the inertia x acceleration that was taken out of the current, over the
+                               * torque    that the current makes; 0: nothing was */
     double turns_inertia_kgm2; /* that makes the torques of slow turns agree, taken out; 0: none was found */
     bool needs_inertia; /* a slow turn of which the current answers a part that only the inertia tells: it has
                          * no torque */

@@ -7,6 +7,7 @@
 #include "hci/host/report/summary.h"
 #include "host/base/memory.h"
 #include "host/base/path.h"
+#include "host/base/quote.h"
 #include "host/csv/write.h"
 #include "host/report/summary.h"
 #include "host/report/tune/page_tuning.h"
@@ -42,6 +43,42 @@ hci_status hci_tuning_write_list(const char *folder, const char *const *log, siz
     if (!status) hci_output_text(out, "file,role,test\n");
     for (size_t k = 0; k < count && !status; ++k)
         status = row_write(out, log[k], folder, test, note);
+    return end_of(out, status, note);
+}
+
+/* Of one recording; false: the message is of another. */
+static bool name_log(const char *folder, const char *log, hci_note *note)
+{
+    char joined[HCI_QUOTE_PATH_SIZE], listed[HCI_QUOTE_PATH_SIZE], given[HCI_QUOTE_PATH_SIZE], *file;
+    hci_note unused = {{0}}, changed = {{0}};
+    if (hci_path_relative(log, folder, &file, &unused)) return false;
+    snprintf(joined, sizeof joined, "%s%s%s", folder, folder[strlen(folder) - 1] == '/' ? "" : "/", file);
+    hci_memory_free(file);
+    hci_quote_path(joined, listed);
+    const size_t length = strlen(listed);
+    if (strncmp(note->text, listed, length) != 0 || note->text[length] != ':') return false;
+    hci_note_set(&changed, HCI_OK, "%s%s", hci_quote_path(log, given), note->text + length);
+    *note = changed;
+    return true;
+}
+
+void hci_tuning_name_log(const char *folder, const char *const *log, size_t count, hci_note *note)
+{
+    for (size_t k = 0; k < count; ++k)
+        if (name_log(folder, log[k], note)) return;
+}
+
+hci_status hci_tuning_write_sensor_zero(const char *folder, double offset_Nm, hci_note *note)
+{
+    hci_output *out;
+    hci_status status = hci_output_open(folder, &out, note);
+    if (status) return status;
+    status = hci_output_file(out, "effects.csv", note);
+    if (!status) {
+        hci_output_text(out, "effect,parameter,value,unit\ntorque_sensor,offset,");
+        hci_output_number(out, offset_Nm, ',');
+        hci_output_text(out, "Nm\n");
+    }
     return end_of(out, status, note);
 }
 

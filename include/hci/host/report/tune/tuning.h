@@ -55,8 +55,16 @@ bool hci_tuning_knows_ripple(const hci_solution *solution);
 hci_status hci_tuning_write_list(const char *folder, const char *const *log, size_t count, const char *test,
                                  hci_note *note);
 
+/* In a message that begins with the path of a recording as that list has it, puts the path as it was given.
+ */
+void hci_tuning_name_log(const char *folder, const char *const *log, size_t count, hci_note *note);
+
 /* Writes target.csv, a torque without ripple, into `folder`. HCI_ERROR_OUTPUT, _MEMORY. */
 hci_status hci_tuning_write_target(const char *folder, double mean_Nm, hci_note *note);
+
+/* Writes effects.csv, which has the zero of a torque sensor alone, into the folder of a machine.
+ * HCI_ERROR_OUTPUT, _MEMORY. */
+hci_status hci_tuning_write_sensor_zero(const char *folder, double offset_Nm, hci_note *note);
 
 /* Writes report.html, summary.json and commands.sh into `folder`; all or none. HCI_ERROR_OUTPUT, _MEMORY. */
 hci_status hci_tuning_write(const hci_tuning *tuning, const char *folder, hci_note *note);
