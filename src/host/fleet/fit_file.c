@@ -14,6 +14,17 @@
 
 enum { PATH_SIZE = 4096 };
 
+static void add_parameter(hci_json *json, const hci_fleet_parameter *p)
+{
+    hci_json_object(json, NULL);
+    hci_json_text(json, "effect", p->effect);
+    hci_json_text(json, "parameter", p->parameter);
+    hci_json_number(json, "value", p->value);
+    hci_json_text(json, "unit", p->unit);
+    hci_json_number(json, "std_error", p->std_error);
+    hci_json_close(json);
+}
+
 char *hci_fleet_fit_json(const hci_fleet_fit *fit)
 {
     hci_json json;
@@ -30,16 +41,8 @@ char *hci_fleet_fit_json(const hci_fleet_fit *fit)
     hci_json_number(&json, "rms_before_Nm", fit->rms_before_Nm);
     hci_json_number(&json, "rms_after_Nm", fit->rms_after_Nm);
     hci_json_array(&json, "parameters");
-    for (size_t k = 0; k < fit->count; ++k) {
-        const hci_fleet_parameter *p = &fit->parameter[k];
-        hci_json_object(&json, NULL);
-        hci_json_text(&json, "effect", p->effect);
-        hci_json_text(&json, "parameter", p->parameter);
-        hci_json_number(&json, "value", p->value);
-        hci_json_text(&json, "unit", p->unit);
-        hci_json_number(&json, "std_error", p->std_error);
-        hci_json_close(&json);
-    }
+    for (size_t k = 0; k < fit->count; ++k)
+        add_parameter(&json, &fit->parameter[k]);
     hci_json_close(&json);
     return hci_json_end(&json);
 }

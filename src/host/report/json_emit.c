@@ -14,6 +14,34 @@ static void add_choice(hci_json *json, const hci_emit_choice *c)
     hci_json_number(json, "instructions_cortex_m0_plus", c->cortex_m0_plus);
 }
 
+/* At each torque: of the plain sine, with the table, and what of that the table makes. */
+static void add_ripples(hci_json *json, const hci_emit_result *result)
+{
+    hci_json_array(json, "ripple");
+    for (size_t k = 0; k < result->ripples; ++k) {
+        hci_json_object(json, NULL);
+        hci_json_number(json, "torque_Nm", result->ripple[k].torque_Nm);
+        hci_json_number(json, "sine_peak_to_peak_Nm", result->ripple[k].sine_Nm);
+        hci_json_number(json, "table_peak_to_peak_Nm", result->ripple[k].with_Nm);
+        hci_json_number(json, "table_own_peak_to_peak_Nm", result->ripple[k].own_Nm);
+        hci_json_close(json);
+    }
+    hci_json_close(json);
+}
+
+/* All that were weighed. */
+static void add_choices(hci_json *json, const hci_emit_result *result)
+{
+    hci_json_array(json, "choices");
+    for (size_t k = 0; k < result->choices; ++k) {
+        hci_json_object(json, NULL);
+        add_choice(json, &result->choice[k]);
+        hci_json_bool(json, "fits", result->choice[k].fits);
+        hci_json_close(json);
+    }
+    hci_json_close(json);
+}
+
 char *hci_emit_json(const hci_emit_request *request, const hci_emit_result *result)
 {
     hci_json json;
@@ -28,24 +56,8 @@ char *hci_emit_json(const hci_emit_request *request, const hci_emit_result *resu
     hci_json_number(&json, "unit_A", result->unit_A);
     hci_json_number(&json, "peak_A", result->peak_A);
     hci_json_number(&json, "crc32", result->crc32);
-    hci_json_array(&json, "ripple");
-    for (size_t k = 0; k < result->ripples; ++k) {
-        hci_json_object(&json, NULL);
-        hci_json_number(&json, "torque_Nm", result->ripple[k].torque_Nm);
-        hci_json_number(&json, "sine_peak_to_peak_Nm", result->ripple[k].sine_Nm);
-        hci_json_number(&json, "table_peak_to_peak_Nm", result->ripple[k].with_Nm);
-        hci_json_number(&json, "table_own_peak_to_peak_Nm", result->ripple[k].own_Nm);
-        hci_json_close(&json);
-    }
-    hci_json_close(&json);
-    hci_json_array(&json, "choices");
-    for (size_t k = 0; k < result->choices; ++k) {
-        hci_json_object(&json, NULL);
-        add_choice(&json, &result->choice[k]);
-        hci_json_bool(&json, "fits", result->choice[k].fits);
-        hci_json_close(&json);
-    }
-    hci_json_close(&json);
+    add_ripples(&json, result);
+    add_choices(&json, result);
     return hci_json_end(&json);
 }
 
@@ -82,6 +94,21 @@ char *hci_emit_loop_json(const hci_emit_loop_request *request, const hci_emit_lo
     return hci_json_end(&json);
 }
 
+/* At each torque: without the drive's map, and with it. */
+static void add_foreign_ripples(hci_json *json, const hci_emit_foreign_result *r)
+{
+    hci_json_array(json, "ripple");
+    for (size_t k = 0; k < r->ripples; ++k) {
+        hci_json_object(json, NULL);
+        hci_json_number(json, "torque_Nm", r->ripple[k].torque_Nm);
+        hci_json_number(json, "sine_peak_to_peak_Nm", r->ripple[k].without_Nm);
+        hci_json_number(json, "map_peak_to_peak_Nm", r->ripple[k].with_Nm);
+        hci_json_number(json, "map_mean_Nm", r->ripple[k].mean_Nm);
+        hci_json_close(json);
+    }
+    hci_json_close(json);
+}
+
 char *hci_emit_foreign_json(const hci_emit_foreign_request *request, const hci_emit_foreign_result *r)
 {
     hci_json json;
@@ -102,15 +129,6 @@ char *hci_emit_foreign_json(const hci_emit_foreign_request *request, const hci_e
     hci_json_number(&json, "left_out_amplitude", r->left_out_amplitude);
     hci_json_number(&json, "torque_Nm", r->torque_Nm);
     hci_json_number(&json, "torque_constant_Nm_per_A", r->torque_constant_Nm_per_A);
-    hci_json_array(&json, "ripple");
-    for (size_t k = 0; k < r->ripples; ++k) {
-        hci_json_object(&json, NULL);
-        hci_json_number(&json, "torque_Nm", r->ripple[k].torque_Nm);
-        hci_json_number(&json, "sine_peak_to_peak_Nm", r->ripple[k].without_Nm);
-        hci_json_number(&json, "map_peak_to_peak_Nm", r->ripple[k].with_Nm);
-        hci_json_number(&json, "map_mean_Nm", r->ripple[k].mean_Nm);
-        hci_json_close(&json);
-    }
-    hci_json_close(&json);
+    add_foreign_ripples(&json, r);
     return hci_json_end(&json);
 }
