@@ -20,6 +20,7 @@
 #include "host/diagnose/search/settle.h"
 #include "host/diagnose/candidates/slip.h"
 #include "host/diagnose/search/stability.h"
+#include "host/diagnose/search/without_denied.h"
 
 #define RATIO       1e-3 /* change of the torque per ampere, as a share, that an inertia may be wrong by */
 #define MOST_LEFT   0.5  /* of all torque: more of it has another cause than an effect */
@@ -380,6 +381,7 @@ static hci_status convention_judge(hci_search *s, hci_attribution *a, hci_note *
 static hci_status model_find(hci_search *s, hci_attribution *a, hci_note *note)
 {
     hci_status status = hci_search_rounds(s, &a->model, note);
+    if (!status) status = hci_search_without_denied(s, &a->model, note);
     if (status) return status;
     hci_search_begin(s, "weighing the evidence", HCI_ROUNDS_SHARE, 1.0);
     status = predictive_find(s, &a->model, note);

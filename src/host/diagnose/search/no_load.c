@@ -10,6 +10,7 @@
 #include "host/diagnose/search/settle.h"
 #include "host/diagnose/candidates/slip.h"
 #include "host/diagnose/search/stability.h"
+#include "host/diagnose/search/without_denied.h"
 
 #define LITTLE 0.01 /* of the largest current, that is none */
 #define ALONE  0.95 /* correlation of a torque that hardly depends on anything else */
@@ -88,6 +89,7 @@ static hci_status effects_find(hci_search *s, hci_fitted_model *model, bool *fou
 {
     hci_status status = hci_search_rounds(s, model, note);
     *found = false;
+    if (!status) status = hci_search_without_denied(s, model, note);
     if (!status) status = hci_search_keep_predictive(s, model, note);
     if (!status) status = hci_search_drop_unsure(s, model, note);
     if (!status) status = hci_search_keep_brakes(s, model, note);
