@@ -59,6 +59,18 @@ static hci_status fit_law(const hci_runs *runs, hci_free_friction *f, hci_note *
     return done ? HCI_OK : hci_note_memory(note, NULL, "the friction of free shafts");
 }
 
+/* Whether the means of the runs held out are no less with the law than without it. */
+static bool is_denied(const hci_runs *runs, const hci_free_friction *f)
+{
+    double before = 0.0, after = 0.0;
+    for (size_t k = 0; k < runs->count; ++k) {
+        if (runs->role[k] == HCI_ROLE_FIT || isnan(f->drag[k].drag_Nm)) continue;
+        before += pow(f->drag[k].drag_Nm, 2.0);
+        after += pow(f->drag[k].drag_Nm - hci_drag_law_at(&f->law, &f->drag[k]), 2.0);
+    }
+    return before > 0.0 && !(after < before);
+}
+
 static double declared_value(const hci_effects *declared, const hci_effect_type *type, size_t parameter)
 {
     double sum = 0.0;
@@ -138,6 +150,7 @@ hci_status hci_free_friction_find(const hci_machine_data *machine, const hci_eff
     }
     hci_status status = hci_free_shafts_find(machine, declared, runs->run, runs->count, f->drag, note);
     if (!status && f->drag) status = fit_law(runs, f, note);
+    if (!status && f->drag && is_denied(runs, f)) f->law.terms = 0;
     if (!status) status = take_rest(runs, f, note);
     return status || f->law.terms == 0 ? status : add_law(declared, f, note);
 }
