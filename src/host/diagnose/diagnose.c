@@ -494,6 +494,13 @@ static hci_status tell(const hci_free_friction *friction, const hci_runs *runs, 
     return status;
 }
 
+static bool any_usable(const hci_runs *runs)
+{
+    for (size_t k = 0; k < runs->count; ++k)
+        if (is_usable(runs, k)) return true;
+    return false;
+}
+
 /* Of the runs that tell a torque; friction of free shafts comes first. */
 static hci_status diagnose_measured(const hci_machine_data *machine, const hci_effects *declared,
                                     const hci_runs *runs, const hci_diagnose_options *options,
@@ -501,6 +508,10 @@ static hci_status diagnose_measured(const hci_machine_data *machine, const hci_e
 {
     hci_free_friction friction = {0};
     hci_status status = hci_free_friction_find(machine, declared, runs, &friction, note);
+    if (!status && !any_usable(&friction.rest)) { /* what accelerates them was a load */
+        hci_free_friction_release(&friction);
+        return nothing_measured(declared, diagnosis, note);
+    }
     if (!status)
         status = diagnose_from(machine, friction.law.terms > 0 ? &friction.effects.list : declared,
                                &friction.rest, options, diagnosis, note);
@@ -516,11 +527,9 @@ static hci_status diagnose_all(const hci_machine_data *machine, const hci_effect
                                const hci_runs *runs, const hci_diagnose_options *options,
                                hci_diagnosis *diagnosis, hci_note *note)
 {
-    bool usable = false;
-    for (size_t k = 0; k < runs->count; ++k)
-        usable = usable || is_usable(runs, k);
-    const hci_status status = usable ? diagnose_measured(machine, declared, runs, options, diagnosis, note)
-                                     : nothing_measured(declared, diagnosis, note);
+    const hci_status status = any_usable(runs)
+                                  ? diagnose_measured(machine, declared, runs, options, diagnosis, note)
+                                  : nothing_measured(declared, diagnosis, note);
     if (status > HCI_NOT_REACHED) return status;
     diagnosis->open_voltage_off = hci_open_voltage_off(&machine->model, runs);
     if (diagnosis->open_voltage_off > HCI_OPEN_VOLTAGE_OFF && diagnosis->verdict == HCI_DIAGNOSIS_COMPLETE)

@@ -326,8 +326,8 @@ static void say_nothing_measured(const hci_words *w)
         w,
         "Nothing can be said: no run with the role `fit` has an angle and a torque. Add torque_Nm (0 for a "
         "holding test), or `inertia` to machine.csv for a free shaft; a torque that a drive has computed "
-        "from "
-        "its current is none.");
+        "from its current is none, and a shaft that drives a load of its own, which is not recorded, tells "
+        "none.");
 }
 
 /* The noise is as large as what matters. */
