@@ -232,7 +232,9 @@ static void say_swings(const hci_words *w, const hci_diagnosis *d)
                       x->amplitude_Nm, x->of_turn ? "that comes" : "at", x->frequency, x->error,
                       x->of_turn ? "times a turn" : "Hz", x->runs, d->runs);
     }
-    if (d->swings > 0)
+    if (d->swings > 0 && d->not_searched)
+        hci_words_say(w, ".");
+    else if (d->swings > 0)
         hci_words_say(w, ", which does not repeat with the turn of the rotor, as of a load, a bearing, a "
                          "belt or the mains: "
                          "it was taken out.");

@@ -5,7 +5,9 @@
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/diagnose/candidates/creeping_angle.h"
 #include "host/diagnose/candidates/empirical_term.h"
+#include "host/diagnose/candidates/slip.h"
 #include "host/diagnose/fit/standard_errors.h"
 #include "host/diagnose/search/backward.h"
 #include "host/diagnose/search/belief.h"
@@ -18,7 +20,6 @@
 #include "host/diagnose/search/rounds.h"
 #include "host/diagnose/search/scaled.h"
 #include "host/diagnose/search/settle.h"
-#include "host/diagnose/candidates/slip.h"
 #include "host/diagnose/search/stability.h"
 #include "host/diagnose/search/without_denied.h"
 
@@ -369,9 +370,11 @@ static hci_status slip_judge(hci_search *s, hci_attribution *a, hci_note *note)
 static hci_status convention_judge(hci_search *s, hci_attribution *a, hci_note *note)
 {
     const hci_fitted_model none = {0};
+    const hci_binned_samples *samples = s->regression->samples;
     bool other = false;
-    if (!s->options->slip) return HCI_OK;
-    const hci_status status = is_of_another(s, &none, &other, note);
+    hci_status status = HCI_OK;
+    a->slip = hci_creeping_angle(s->regression->machine, samples->statistics, samples->run_count);
+    if (!a->slip && s->options->slip) status = is_of_another(s, &none, &other, note);
     if (other) a->slip = s->options->slip(s->options->slip_context);
     a->not_searched = a->unknown = a->slip != NULL;
     return status;
