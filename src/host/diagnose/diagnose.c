@@ -101,6 +101,18 @@ static bool is_unrepeated(const hci_diagnosis *d)
     return !known || apart > REPEATED * (left + apart);
 }
 
+#define HELD 0.02 /* electrical turns that a shaft moves by which is held */
+
+/* Whether a run turns, or is of means over turns. */
+static bool any_turns(const hci_dataset *b, const hci_runs *runs)
+{
+    for (size_t k = 0; k < runs->count; ++k)
+        if (b->fit[k] && (runs->run[k].only_mean ||
+                          b->samples.statistics[k].turns * b->regression.machine->pole_pairs > HELD))
+            return true;
+    return false;
+}
+
 /* The machine that each ambiguous effect would make of the recordings, where it is not the one that is
  * written down. */
 static hci_alternatives alternatives_of(const hci_attribution *a)
@@ -138,7 +150,7 @@ static hci_status fill(hci_dataset *b, const hci_runs *runs, hci_attribution *a,
     }
     if (!status) status = hci_run_errors_fill(b, runs, a->model.fit.parameters, d, note);
     if (!status) hci_findings_fill(a, d);
-    d->wanders = d->wanders && is_unrepeated(d);
+    d->wanders = d->wanders && is_unrepeated(d) && any_turns(b, runs);
     return status;
 }
 
@@ -419,8 +431,10 @@ static hci_status diagnose(hci_dataset *b, const hci_machine_data *machine, cons
     if (!status) status = much_is_unknown(b, runs, how.resolution_Nm, &a, d, note);
     if (!status) drowned_judge(b, machine, d);
     if (!status) loose_swings_judge(d);
-    if (!status && !a.not_searched) status = hci_next_points_unknown(&b->regression, machine, d, note);
-    if (!status && !a.not_searched) status = hci_next_points_left_open(&b->regression, machine, d, note);
+    const bool asks =
+        !a.not_searched && any_turns(b, runs); /* how to load a shaft that is held is not known */
+    if (!status && asks) status = hci_next_points_unknown(&b->regression, machine, d, note);
+    if (!status && asks) status = hci_next_points_left_open(&b->regression, machine, d, note);
     hci_attribution_release(&a);
     return status;
 }
