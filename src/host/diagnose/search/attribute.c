@@ -374,7 +374,10 @@ static hci_status convention_judge(hci_search *s, hci_attribution *a, hci_note *
     bool other = false;
     hci_status status = HCI_OK;
     a->slip = hci_creeping_angle(s->regression->machine, samples->statistics, samples->run_count);
-    if (!a->slip && s->options->slip) status = is_of_another(s, &none, &other, note);
+    if (!a->slip) status = hci_search_residual(s, &none.candidates, note);
+    if (!a->slip && !status)
+        a->slip = hci_slip_of_size(samples, s->regression->runs, s->regression->use, s->residual_Nm);
+    if (!a->slip && !status && s->options->slip) status = is_of_another(s, &none, &other, note);
     if (other) a->slip = s->options->slip(s->options->slip_context);
     a->not_searched = a->unknown = a->slip != NULL;
     return status;
