@@ -7,11 +7,11 @@
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
 #include "host/diagnose/fit/model.h"
+#include "host/diagnose/prepare/varying_load.h"
 #include "host/diagnose/run_errors.h"
 #include "host/machine/torque_constant.h"
 #include "host/numeric/statistics.h"
 #include "host/recording/free_shaft.h"
-#include "host/recording/varying_load.h"
 
 #define COARSE 24.0 /* samples in an electrical period, from which its order 12 shows */
 

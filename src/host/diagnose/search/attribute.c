@@ -21,7 +21,6 @@
 #include "host/diagnose/search/scaled.h"
 #include "host/diagnose/search/settle.h"
 #include "host/diagnose/search/stability.h"
-#include "host/diagnose/search/without_denied.h"
 
 #define RATIO       1e-3 /* change of the torque per ampere, as a share, that an inertia may be wrong by */
 #define MOST_LEFT   0.5  /* of all torque: more of it has another cause than an effect */

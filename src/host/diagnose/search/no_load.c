@@ -3,14 +3,13 @@
 #include <math.h>
 
 #include "host/diagnose/candidates/empirical_term.h"
+#include "host/diagnose/candidates/slip.h"
 #include "host/diagnose/search/backward.h"
 #include "host/diagnose/search/belief.h"
 #include "host/diagnose/search/rivals.h"
 #include "host/diagnose/search/rounds.h"
 #include "host/diagnose/search/settle.h"
-#include "host/diagnose/candidates/slip.h"
 #include "host/diagnose/search/stability.h"
-#include "host/diagnose/search/without_denied.h"
 
 #define LITTLE 0.01 /* of the largest current, that is none */
 #define ALONE  0.95 /* correlation of a torque that hardly depends on anything else */

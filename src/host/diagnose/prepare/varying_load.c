@@ -1,4 +1,4 @@
-#include "host/recording/varying_load.h"
+#include "host/diagnose/prepare/varying_load.h"
 
 #include <math.h>
 

@@ -7,8 +7,8 @@
  *     T_e = a J ω' + c sign ω + B ω + R i_d i_q + S i_q³
  *
  * Out: what that leaves, which is a load that nobody has recorded. */
-#ifndef HCI_SRC_HOST_RECORDING_VARYING_LOAD_H
-#define HCI_SRC_HOST_RECORDING_VARYING_LOAD_H
+#ifndef HCI_SRC_HOST_DIAGNOSE_PREPARE_VARYING_LOAD_H
+#define HCI_SRC_HOST_DIAGNOSE_PREPARE_VARYING_LOAD_H
 
 #include "hci/host/recording/predict.h"
 
