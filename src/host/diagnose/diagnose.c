@@ -102,6 +102,18 @@ static bool is_unrepeated(const hci_diagnosis *d)
     return !known || apart > REPEATED * (left + apart);
 }
 
+#define HELD 0.02 /* electrical turns that a shaft moves by which is held */
+
+/* Whether a run turns, or is of means over turns. */
+static bool any_turns(const hci_dataset *b, const hci_runs *runs)
+{
+    for (size_t k = 0; k < runs->count; ++k)
+        if (b->fit[k] && (runs->run[k].only_mean ||
+                          b->samples.statistics[k].turns * b->regression.machine->pole_pairs > HELD))
+            return true;
+    return false;
+}
+
 /* The machine that each ambiguous effect would make of the recordings, where it is not the one that is
  * written down. */
 static hci_alternatives alternatives_of(const hci_attribution *a)
@@ -139,7 +151,7 @@ static hci_status fill(hci_dataset *b, const hci_runs *runs, hci_attribution *a,
     }
     if (!status) status = hci_run_errors_fill(b, runs, a->model.fit.parameters, d, note);
     if (!status) hci_findings_fill(a, d);
-    d->wanders = d->wanders && is_unrepeated(d);
+    d->wanders = d->wanders && is_unrepeated(d) && any_turns(b, runs);
     return status;
 }
 
@@ -439,8 +451,10 @@ static hci_status diagnose(hci_dataset *b, const task *t, hci_diagnosis *d, hci_
     if (!status) status = much_is_unknown(b, runs, how.resolution_Nm, &a, d, note);
     if (!status) drowned_judge(b, machine, d);
     if (!status) loose_swings_judge(d);
-    if (!status && !a.not_searched) status = hci_next_points_unknown(&b->regression, machine, d, note);
-    if (!status && !a.not_searched) status = hci_next_points_left_open(&b->regression, machine, d, note);
+    const bool asks =
+        !a.not_searched && any_turns(b, runs); /* how to load a shaft that is held is not known */
+    if (!status && asks) status = hci_next_points_unknown(&b->regression, machine, d, note);
+    if (!status && asks) status = hci_next_points_left_open(&b->regression, machine, d, note);
     hci_attribution_release(&a);
     return status;
 }
@@ -513,12 +527,23 @@ static hci_status tell(const hci_free_friction *friction, const hci_runs *runs, 
     return status;
 }
 
+static bool any_usable(const hci_runs *runs)
+{
+    for (size_t k = 0; k < runs->count; ++k)
+        if (is_usable(runs, k)) return true;
+    return false;
+}
+
 /* Of the runs that tell a torque; friction of free shafts comes first. */
 static hci_status diagnose_measured(const task *t, hci_diagnosis *diagnosis, hci_note *note)
 {
     hci_free_friction friction = {0};
     task rest = *t;
     hci_status status = hci_free_friction_find(t->machine, t->declared, t->runs, &friction, note);
+    if (!status && !any_usable(&friction.rest)) { /* what accelerates them was a load */
+        hci_free_friction_release(&friction);
+        return nothing_measured(t->declared, diagnosis, note);
+    }
     if (friction.law.terms > 0) rest.declared = &friction.effects.list;
     rest.runs = &friction.rest;
     if (!status) status = diagnose_from(&rest, diagnosis, note);
@@ -532,11 +557,8 @@ static hci_status diagnose_measured(const task *t, hci_diagnosis *diagnosis, hci
 /* All but what a run that disagrees with the others says. */
 static hci_status diagnose_all(const task *t, hci_diagnosis *diagnosis, hci_note *note)
 {
-    bool usable = false;
-    for (size_t k = 0; k < t->runs->count; ++k)
-        usable = usable || is_usable(t->runs, k);
-    const hci_status status =
-        usable ? diagnose_measured(t, diagnosis, note) : nothing_measured(t->declared, diagnosis, note);
+    const hci_status status = any_usable(t->runs) ? diagnose_measured(t, diagnosis, note)
+                                                  : nothing_measured(t->declared, diagnosis, note);
     if (status > HCI_NOT_REACHED) return status;
     diagnosis->open_voltage_off = hci_open_voltage_off(&t->machine->model, t->runs);
     if (diagnosis->open_voltage_off > HCI_OPEN_VOLTAGE_OFF && diagnosis->verdict == HCI_DIAGNOSIS_COMPLETE)

@@ -19,8 +19,10 @@ static size_t describe_term(const hci_effect_type *type, const hci_effect_term *
     const char *unit = strcmp(p->unit, "1") == 0 ? "" : p->unit;
     char order[32] = "";
     if (p->ordered) snprintf(order, sizeof order, "_%.6g", term->order);
-    const int length =
-        snprintf(text, size, "%s%s = %.4g ± %.2g %s", p->name, order, term->value, term->std_error, unit);
+    const int length = term->std_error > 0.0 ? snprintf(text, size, "%s%s = %.4g ± %.2g %s", p->name, order,
+                                                        term->value, term->std_error, unit)
+                                             : snprintf(text, size, "%s%s = %.4g %s, not told by itself",
+                                                        p->name, order, term->value, unit);
     return (size_t)length < size ? (size_t)length : size - 1;
 }
 

@@ -7,7 +7,9 @@
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
 #include "host/diagnose/fit/model.h"
+#include "host/diagnose/prepare/varying_load.h"
 #include "host/diagnose/run_errors.h"
+#include "host/machine/torque_constant.h"
 #include "host/numeric/statistics.h"
 #include "host/recording/free_shaft.h"
 
@@ -59,6 +61,18 @@ static hci_status fit_law(const hci_runs *runs, hci_free_friction *f, hci_note *
     return done ? HCI_OK : hci_note_memory(note, NULL, "the friction of free shafts");
 }
 
+/* Whether the means of the runs held out are no less with the law than without it. */
+static bool is_denied(const hci_runs *runs, const hci_free_friction *f)
+{
+    double before = 0.0, after = 0.0;
+    for (size_t k = 0; k < runs->count; ++k) {
+        if (runs->role[k] == HCI_ROLE_FIT || isnan(f->drag[k].drag_Nm)) continue;
+        before += pow(f->drag[k].drag_Nm, 2.0);
+        after += pow(f->drag[k].drag_Nm - hci_drag_law_at(&f->law, &f->drag[k]), 2.0);
+    }
+    return before > 0.0 && !(after < before);
+}
+
 static double declared_value(const hci_effects *declared, const hci_effect_type *type, size_t parameter)
 {
     double sum = 0.0;
@@ -87,10 +101,66 @@ static hci_status add_law(const hci_effects *declared, hci_free_friction *f, hci
 
 /* ---- runs that tell their mean alone ---- */
 
-static bool is_coarse(const hci_run *run, const hci_drag *drag)
+static bool is_coarse_at(const hci_run *run, double speed_rad_per_s)
 {
     const double step_s = (run->time_s[run->count - 1] - run->time_s[0]) / (double)(run->count - 1);
-    return run->pole_pairs * fabs(drag->speed_rad_per_s) * step_s * COARSE > 2.0 * HCI_PI;
+    return run->pole_pairs * fabs(speed_rad_per_s) * step_s * COARSE > 2.0 * HCI_PI;
+}
+
+static bool is_coarse(const hci_run *run, const hci_drag *drag)
+{
+    return is_coarse_at(run, drag->speed_rad_per_s);
+}
+
+/* ---- a load that is not known ---- */
+
+/* Of the rated torque, that friction and iron may differ by from the law that they are fitted with: half of
+ * what bearings, iron and air take at most. */
+#define OF_RATED 0.05
+
+static double rated_Nm_of(const hci_machine_data *machine, const hci_effects *declared)
+{
+    if (machine->rated_torque_Nm > 0.0) return machine->rated_torque_Nm;
+    return fabs(hci_torque_constant(&machine->model, declared)) * fmax(0.0, machine->rated_current_A);
+}
+
+/* Beside a load that varies, such as a road, samples too far apart for the ripple tell nothing of the motor:
+ * the run has no torque. */
+static void torque_leave(hci_run *run, double load_Nm)
+{
+    hci_memory_free(run->torque_Nm);
+    run->torque_Nm = NULL;
+    run->torque_source = HCI_TORQUE_NONE;
+    hci_note_add(
+        &run->remark,
+        "no free shaft: what the current makes beside inertia x acceleration varies by %.3g N·m rms as "
+        "neither friction nor the motor does, such as on a road; that load is not known, and the samples "
+        "are too far apart for the ripple, so that no torque is known",
+        load_Nm);
+}
+
+static bool may_be_loaded(const hci_run *run)
+{
+    const double turned =
+        run->theta_m_rad && run->count > 2 ? run->theta_m_rad[run->count - 1] - run->theta_m_rad[0] : 0.0;
+    return run->torque_source == HCI_TORQUE_INERTIA && run->time_s && run->speed_rad_per_s && run->i_A &&
+           turned != 0.0 && is_coarse_at(run, turned / (run->time_s[run->count - 1] - run->time_s[0]));
+}
+
+static hci_status loads_leave(const hci_machine_data *machine, const hci_effects *declared,
+                              const hci_runs *runs, hci_note *note)
+{
+    const double allowed_Nm = OF_RATED * rated_Nm_of(machine, declared);
+    double load_Nm = 0.0;
+    bool *use = hci_memory_new(runs->count + 1, sizeof *use);
+    if (!use) return hci_note_memory(note, NULL, "the load of a shaft");
+    for (size_t k = 0; k < runs->count; ++k)
+        use[k] = allowed_Nm > 0.0 && may_be_loaded(&runs->run[k]);
+    const hci_status status = hci_varying_load_find(machine, declared, runs, use, &load_Nm, note);
+    for (size_t k = 0; k < runs->count && !status && load_Nm > allowed_Nm; ++k)
+        if (use[k]) torque_leave(&runs->run[k], load_Nm);
+    hci_memory_free(use);
+    return status;
 }
 
 static bool is_fitted(const hci_runs *runs, size_t k)
@@ -136,8 +206,10 @@ hci_status hci_free_friction_find(const hci_machine_data *machine, const hci_eff
         f->drag = hci_memory_new(runs->count + 1, sizeof *f->drag);
         if (!f->drag) return hci_note_memory(note, NULL, "the friction of free shafts");
     }
-    hci_status status = hci_free_shafts_find(machine, declared, runs->run, runs->count, f->drag, note);
+    hci_status status = loads_leave(machine, declared, runs, note);
+    if (!status) status = hci_free_shafts_find(machine, declared, runs->run, runs->count, f->drag, note);
     if (!status && f->drag) status = fit_law(runs, f, note);
+    if (!status && f->drag && is_denied(runs, f)) f->law.terms = 0;
     if (!status) status = take_rest(runs, f, note);
     return status || f->law.terms == 0 ? status : add_law(declared, f, note);
 }

@@ -275,9 +275,10 @@ static size_t orders_of(const hci_diagnosis *d, double order[HCI_MOST_UNEXPLAINE
 /* What is new about a point that no recording is near. */
 static void words_of_new(const hci_regression *e, const hci_operating_point *x, hci_next_point *to)
 {
-    bool current = false, without = false, way = false;
+    bool current = false, without = false, way = false, unused = false;
     for (size_t r = 0; r < e->samples->run_count; ++r) {
         const hci_run_statistics *f = &e->samples->statistics[r];
+        unused = unused || f->mean_speed_rad_per_s * x->speed_rad_per_s > 0.0;
         if (!hci_segment_next(e->samples, r, NULL)) continue;
         current = current || f->current_A > 0.0;
         without = without || !(f->current_A > 0.0);
@@ -287,6 +288,7 @@ static void words_of_new(const hci_regression *e, const hci_operating_point *x, 
     hci_words_say(&(hci_words){to->why, sizeof to->why}, "%s",
                   none && !without    ? "no recording without current so far"
                   : !none && !current ? "no recording with current so far"
+                  : !way && unused    ? "no recording in this direction that tells a torque so far"
                   : !way              ? "no recording in this direction so far"
                                       : "furthest from all recordings so far");
 }

@@ -7,6 +7,7 @@
 
 #define SAME         0.02  /* change of an error, as a share, that is none */
 #define NEAR_NOISE   1.5   /* times the noise: an error below it is not looked at in parts */
+#define GOES         0.9   /* correlation of what is left of means with the torque, which is no zero */
 #define OF_MEANS     0.5   /* of the mean square of an error, that is of the means of the runs */
 #define PLAIN        100.0 /* ΔBIC of an effect that is not taken, and said all the same */
 #define NOTHING_LEFT 1.1   /* times the noise: an error in which nothing else is left */
@@ -104,6 +105,43 @@ static bool is_of_means(const hci_diagnosis *d)
     return means > OF_MEANS * all;
 }
 
+enum { LEAST_MEANS = 4 };
+
+static bool has_sensor(const hci_diagnosis *d)
+{
+    bool any = d->runs == 0;
+    for (size_t k = 0; k < d->runs; ++k)
+        any = any || d->run[k].source == HCI_TORQUE_MEASURED;
+    return any;
+}
+
+/* Whether what is left of the means goes with the torque of the runs. */
+static bool goes_with_torque(const hci_diagnosis *d)
+{
+    double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+    for (size_t k = 0; k < d->runs; ++k, n += 1.0) {
+        const double torque = d->run[k].mean_torque_Nm, left = d->run[k].error_mean_after_Nm;
+        x += torque;
+        y += left;
+        xx += torque * torque;
+        xy += torque * left;
+        yy += left * left;
+    }
+    const double across = n * xy - x * y;
+    return n >= LEAST_MEANS && across * across > GOES * GOES * (n * xx - x * x) * (n * yy - y * y);
+}
+
+/* What may make the mean of each run another one. */
+static const char *means_words(const hci_diagnosis *d)
+{
+    if (goes_with_torque(d))
+        return ". What is left of them grows with the torque, as where a current, the torque or the magnets "
+               "are "
+               "scaled otherwise from run to run.";
+    return has_sensor(d) ? ", as where the zero of a sensor is another one each time."
+                         : ", as where a load or the friction is another one each time.";
+}
+
 /* An explanation that was left out, and what it may come from. */
 static void say_disbelieved(const hci_words *w, const hci_diagnosis *d)
 {
@@ -114,7 +152,10 @@ static void say_disbelieved(const hci_words *w, const hci_diagnosis *d)
         hci_words_say(w, " (it would leave %.2g of the declared torque per ampere of i_q)",
                       d->disbelieved_share);
     hci_words_say(
-        w, d->disbelieved_share >= BELIEVABLE && is_of_means(d)
+        w, d->disbelieved_share >= BELIEVABLE && is_of_means(d) && !has_sensor(d)
+               ? ", so it was left out: most of what the declared machine leaves is the mean of each run, as "
+                 "where a load or the friction is another one from run to run."
+           : d->disbelieved_share >= BELIEVABLE && is_of_means(d)
                ? ", so it was left out: most of what the declared machine leaves is the mean of each run, as "
                  "where the zero of the torque sensor or the friction is another one from run to run."
                : ", so it was left out: see with `check` whether signs, units, angle and motor are those of "
@@ -235,11 +276,12 @@ static void say_unknown(const hci_words *w, const hci_diagnosis *d)
         hci_words_say(w, " Effects that describe the runs that were fitted and not those that were held out "
                          "were dropped.");
     if (d->means_open)
-        hci_words_say(w, d->means_alone
-                             ? " The mean of each run is off by something else: what would explain all of "
-                               "them says nothing of a run left out, as where the zero of a sensor is "
-                               "another one each time."
-                             : " What would explain all runs says nothing of a run left out.");
+        hci_words_say(w, "%s%s",
+                      d->means_alone
+                          ? " The mean of each run is off by something else: what would explain all of "
+                            "them says nothing of a run left out"
+                          : " What would explain all runs says nothing of a run left out.",
+                      d->means_alone ? means_words(d) : "");
     if (d->wanders) hci_words_say(w, " Something in it does not repeat with the turn of the rotor.");
     say_orders_left(w, d);
 }
@@ -256,7 +298,9 @@ static void say_swings(const hci_words *w, const hci_diagnosis *d)
                       x->amplitude_Nm, x->of_turn ? "that comes" : "at", x->frequency, x->error,
                       x->of_turn ? "times a turn" : "Hz", x->runs, d->runs);
     }
-    if (d->swings > 0)
+    if (d->swings > 0 && d->not_searched)
+        hci_words_say(w, ".");
+    else if (d->swings > 0)
         hci_words_say(w, ", which does not repeat with the turn of the rotor, as of a load, a bearing, a "
                          "belt or the mains: "
                          "it was taken out.");
@@ -353,12 +397,13 @@ static void say_search(const hci_words *w, const hci_diagnosis *d)
 
 static void say_nothing_measured(const hci_words *w)
 {
-    hci_words_say(
-        w,
-        "Nothing can be said: no run with the role `fit` has an angle and a torque. Add torque_Nm (0 for a "
-        "holding test), or `inertia` to machine.csv for a free shaft; a torque that a drive has computed "
-        "from "
-        "its current is none.");
+    hci_words_say(w, "Nothing can be said: no run with the role `fit` has an angle and a torque. Add "
+                     "torque_Nm as a sensor "
+                     "read it in each row (0 for a holding test without a load), or `inertia` to machine.csv "
+                     "for a free shaft; "
+                     "a torque that a drive has computed from its current, or one number typed into every "
+                     "row, is none, and a "
+                     "shaft that drives a load of its own, which is not recorded, tells none.");
 }
 
 /* The noise is as large as what matters. */

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "hci/math/harmonic.h"
 #include "host/base/memory.h"
 #include "host/machine/torque_constant.h"
 #include "host/recording/rotor_frame.h"
@@ -42,25 +43,52 @@ static void add_speed(double speed, double share, figures *f)
     f->drag_with_speed.square += share * speed * speed;
 }
 
+/* How many samples from the first one on are whole turns; all where the run is none of one. */
+static size_t whole_turns_of(const hci_run *run)
+{
+    const double *theta = run->theta_m_rad, turn = 2.0 * HCI_PI;
+    const double turns = floor(fabs(theta[run->count - 1] - theta[0]) / turn);
+    size_t k = run->count;
+    if (turns < 1.0) return k;
+    while (k > 1 && fabs(theta[k - 1] - theta[0]) >= turns * turn)
+        --k;
+    return k;
+}
+
+/* What weights a sample: of what works over whole turns, as a weight off the axis, which swings the speed,
+ * the mean over the angle is nothing and the mean over time is not. Where nothing turns: of each the same. */
+static void shares_fill(const hci_run *run, size_t count, double *share)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < run->count; ++k) {
+        share[k] = k < count ? fabs(run->speed_rad_per_s[k]) : 0.0;
+        sum += share[k];
+    }
+    for (size_t k = 0; k < count; ++k)
+        share[k] = sum > 0.0 ? share[k] / sum : 1.0 / (double)count;
+}
+
 static hci_status figures_of(const hci_machine_data *machine, const hci_effects *effects, const hci_run *run,
                              figures *f, hci_note *note)
 {
-    const double share = 1.0 / (double)run->count;
+    const double even = 1.0 / (double)run->count;
     const double constant = hci_torque_constant(&machine->model, effects);
-    double *model_Nm = hci_memory_new(run->count, sizeof *model_Nm), square = 0.0;
+    double *model_Nm = hci_memory_new(2 * run->count, sizeof *model_Nm), square = 0.0;
     if (model_Nm == NULL) return hci_note_memory(note, NULL, "a free shaft");
+    double *shares = model_Nm + run->count;
+    shares_fill(run, whole_turns_of(run), shares);
     const hci_status status = hci_predict(machine, effects, run, model_Nm, note);
     *f = (figures){.rms_Nm = 0.0};
     for (size_t k = 0; k < run->count && !status; ++k) {
-        const double speed = run->speed_rad_per_s[k], sign = (speed > 0.0) - (speed < 0.0);
+        const double share = shares[k], speed = run->speed_rad_per_s[k], sign = (speed > 0.0) - (speed < 0.0);
         f->plain.made += share * model_Nm[k];
         f->plain.accelerating += share * run->torque_Nm[k];
         f->with_speed.made += share * sign * model_Nm[k];
         f->with_speed.accelerating += share * sign * run->torque_Nm[k];
         const double made = constant * hci_run_dq(run, machine->model.pole_pairs, k).q;
-        square += share * made * made;
+        square += even * made * made;
         f->mean_Nm += share * sign * made;
-        f->along_Nm2 += share * run->torque_Nm[k] * made;
+        f->along_Nm2 += even * run->torque_Nm[k] * made;
         add_speed(speed, share, f);
     }
     f->rms_Nm = sqrt(square);

@@ -6,7 +6,7 @@
 #include "host/recording/drag_law.h"
 
 /* Of a free shaft what the model makes is inertia × acceleration and a drag of its own. The drag is the
- * difference of their means, with the sign of the speed or without, where the model makes more than twice
+ * difference of their means over the angle of whole turns, with the sign of the speed or without, where the model makes more than twice
  * what accelerates. It may be a tenth of the machine's rated torque, or 3/4 of the largest rms torque that
  * i_q makes in these runs: a torque that neither accelerates nor varies drives something. Of a run that does,
  * mean_is_unknown is set, and its remark says so, and then also of the others that hardly accelerate; runs

@@ -398,11 +398,24 @@ static int phase_missing(const reader *r, hci_run_column first)
     return 0;
 }
 
+/* A name such as `Current` may be of a supply as well. */
+static hci_status one_phase(reader *r)
+{
+    char quoted[HCI_QUOTE_SIZE];
+    hci_note found = {{0}};
+    size_t line = 0;
+    const char *name = NULL;
+    for (int s = 0; s < 3 && !name; ++s)
+        name = hci_run_column_header(&r->columns, (hci_run_column)((int)HCI_RUN_IA + s), &line);
+    hci_note_add(&found, "one phase current, %s", hci_quote(name ? name : "", quoted));
+    return missing(r, found.text, "two or three of ia_A, ib_A, ic_A",
+                   "add another column, or iq_A; the current of a supply or a battery is none of a phase");
+}
+
 static hci_status read_currents(reader *r)
 {
     const int phases = hci_run_phase_count(&r->columns, HCI_RUN_IA);
-    if (phases == 1 && !has(r, HCI_RUN_IQ))
-        return missing(r, "one phase current", "two or three of ia_A, ib_A, ic_A", "add another column");
+    if (phases == 1 && !has(r, HCI_RUN_IQ)) return one_phase(r);
     if (phases >= 2) {
         hci_run_column_leave(&r->columns, HCI_RUN_ID);
         hci_run_column_leave(&r->columns, HCI_RUN_IQ);

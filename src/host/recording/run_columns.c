@@ -433,6 +433,11 @@ void hci_run_columns_tell_unused(const hci_run_columns *c)
     hci_csv_unused(c->csv, c->used, c->remark);
 }
 
+static bool is_of_a_hundred(const hci_run_columns *c, size_t column)
+{
+    return strchr(hci_csv_name(c->csv, column), '%') != NULL;
+}
+
 void hci_run_columns_torque_like(const hci_run_columns *c, char name[HCI_RUN_NAME])
 {
     char quoted[HCI_QUOTE_SIZE];
@@ -441,6 +446,14 @@ void hci_run_columns_torque_like(const hci_run_columns *c, char name[HCI_RUN_NAM
         if (c->used[column] || strlen(is) >= HCI_RUN_NAME ||
             !hci_name_words_like_torque(is, hci_csv_row_unit(c->csv, column)))
             continue;
+        if (is_of_a_hundred(c, column)) {
+            hci_note_add(
+                c->remark,
+                "%s may be the torque in per cent of another one, which cannot be read: if it is, write a "
+                "column torque_Nm with it times that torque in N·m, over 100",
+                hci_quote(is, quoted));
+            return;
+        }
         snprintf(name, HCI_RUN_NAME, "%s", is);
         hci_note_add(c->remark, "%s may be the torque: if it is, add --column 'torque_Nm=%s'",
                      hci_quote(is, quoted), is);

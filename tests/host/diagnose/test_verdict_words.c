@@ -135,8 +135,9 @@ static void test_what_is_decisive_and_not_taken(void)
 /* Where the means of the runs are most of an error, no sign or unit is suspected. */
 static void test_zeros_that_differ_are_no_units(void)
 {
-    hci_run_errors run[2] = {{.rms_before_Nm = 0.1, .error_mean_before_Nm = 0.02},
-                             {.rms_before_Nm = 0.1, .error_mean_before_Nm = -0.02}};
+    hci_run_errors run[2] = {
+        {.source = HCI_TORQUE_MEASURED, .rms_before_Nm = 0.1, .error_mean_before_Nm = 0.02},
+        {.source = HCI_TORQUE_MEASURED, .rms_before_Nm = 0.1, .error_mean_before_Nm = -0.02}};
     d.run = run;
     d.runs = 2;
     d.disbelieved = "friction";
@@ -146,6 +147,25 @@ static void test_zeros_that_differ_are_no_units(void)
     run[1].error_mean_before_Nm = 0.09;
     TEST_ASSERT_FALSE(says("signs, units, angle and motor"));
     TEST_ASSERT_TRUE(says("zero of the torque sensor or the friction is another one from run to run"));
+}
+
+/* No zero of a torque sensor where none was read, nor any where what is left grows with the torque. */
+static void test_what_makes_the_means_differ(void)
+{
+    hci_run_errors run[4] = {
+        {.rms_before_Nm = 0.1}, {.rms_before_Nm = 0.1}, {.rms_before_Nm = 0.1}, {.rms_before_Nm = 0.1}};
+    d.run = run;
+    d.runs = 4;
+    for (int k = 0; k < 4; ++k) {
+        run[k].source = HCI_TORQUE_INERTIA;
+        run[k].mean_torque_Nm = 0.2 * k;
+        run[k].error_mean_after_Nm = k % 2 ? 0.03 : -0.03;
+    }
+    TEST_ASSERT_TRUE(says("a load or the friction is another one each time"));
+    for (int k = 0; k < 4; ++k)
+        run[k].error_mean_after_Nm = 0.02 * k + (k % 2 ? 1e-3 : -1e-3);
+    TEST_ASSERT_TRUE(says("grows with the torque"));
+    TEST_ASSERT_FALSE(says("zero of"));
 }
 
 static void test_a_limit_with_nothing_left(void)
@@ -202,6 +222,7 @@ int main(void)
     RUN_TEST(test_what_was_not_looked_for);
     RUN_TEST(test_what_is_decisive_and_not_taken);
     RUN_TEST(test_zeros_that_differ_are_no_units);
+    RUN_TEST(test_what_makes_the_means_differ);
     RUN_TEST(test_a_limit_with_nothing_left);
     RUN_TEST(test_noise_as_large_as_the_torque);
     RUN_TEST(test_the_recording_that_disagrees);

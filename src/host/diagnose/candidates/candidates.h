@@ -90,6 +90,7 @@ typedef struct {
     bool known_only;    /* without the one for what is not known */
     bool magnetic_only; /* only those of the magnetic circuit that the currents tell apart */
     bool no_current;    /* without those that need a current */
+    const bool *denied; /* without these, of each type; NULL: all */
     bool has_neutral;   /* of the machine */
 } hci_candidates_source;
 

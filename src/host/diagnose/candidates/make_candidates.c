@@ -255,7 +255,8 @@ static void add_all(builder *b, const hci_candidates_source *s, hci_effect_surve
     x->of_speed = of_speed;
     x->of_speeds = hci_residual_by_speed(s, of_speed);
     for (size_t r = 0; (b->type = hci_effect_type_at(r)) != NULL; ++r)
-        if (b->type->propose && (!s->magnetic_only || is_magnetic(s, b->type, x->current_A)))
+        if (b->type->propose && !(s->denied && s->denied[r]) &&
+            (!s->magnetic_only || is_magnetic(s, b->type, x->current_A)))
             b->type->propose(x, &to);
     if (!s->known_only) add_unknown(b, s, lines);
 }

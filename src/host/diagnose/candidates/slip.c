@@ -128,3 +128,28 @@ const char *hci_slip_of_load(void)
 {
     return "The runs with a current show the torque of the declared machine with the opposite sign";
 }
+
+/* ---- a torque without its sign ---- */
+
+#define BELOW 0.3 /* of all samples, that the machine has below zero at least by more than noise */
+
+const char *hci_slip_of_size(const hci_binned_samples *samples, const hci_run *runs, const bool *use,
+                             const double *residual_Nm)
+{
+    double signed_Nm2 = 0.0, size_Nm2 = 0.0, below = 0.0, count = 0.0;
+    for (size_t k = 0; k < samples->segment_count; ++k) {
+        const hci_segment *s = &samples->segment[k];
+        if (!use[s->run] || runs[s->run].torque_source != HCI_TORQUE_MEASURED) continue;
+        for (size_t j = s->first; j < s->first + s->count; ++j, count += 1.0) {
+            const double read = samples->sample[j].torque_Nm, made = read - residual_Nm[j];
+            if (read < 0.0) return NULL;
+            below += made < 0.0;
+            signed_Nm2 += residual_Nm[j] * residual_Nm[j];
+            size_Nm2 += (read - fabs(made)) * (read - fabs(made));
+        }
+    }
+    return below > BELOW * count && size_Nm2 < SAME * SAME * signed_Nm2
+               ? "the torque has no sign: it is never below zero, and the size of what the machine makes (a "
+                 "display that shows the amount)"
+               : NULL;
+}

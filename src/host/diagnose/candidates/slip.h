@@ -17,4 +17,10 @@ const char *hci_slip_of_cogging(const hci_machine *machine, const hci_candidates
 /* The same of a torque with the opposite sign. */
 const char *hci_slip_of_load(void);
 
+/* The same of a torque without its sign: none of the samples is below zero, where the machine's is, and the
+ * size of that is what was measured. residual_Nm: of each sample, of the machine as declared. runs, use: of
+ * each. */
+const char *hci_slip_of_size(const hci_binned_samples *samples, const hci_run *runs, const bool *use,
+                             const double *residual_Nm);
+
 #endif

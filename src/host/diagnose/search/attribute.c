@@ -5,7 +5,9 @@
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/diagnose/candidates/creeping_angle.h"
 #include "host/diagnose/candidates/empirical_term.h"
+#include "host/diagnose/candidates/slip.h"
 #include "host/diagnose/fit/standard_errors.h"
 #include "host/diagnose/search/backward.h"
 #include "host/diagnose/search/belief.h"
@@ -18,7 +20,6 @@
 #include "host/diagnose/search/rounds.h"
 #include "host/diagnose/search/scaled.h"
 #include "host/diagnose/search/settle.h"
-#include "host/diagnose/candidates/slip.h"
 #include "host/diagnose/search/stability.h"
 
 #define RATIO       1e-3 /* change of the torque per ampere, as a share, that an inertia may be wrong by */
@@ -368,9 +369,14 @@ static hci_status slip_judge(hci_search *s, hci_attribution *a, hci_note *note)
 static hci_status convention_judge(hci_search *s, hci_attribution *a, hci_note *note)
 {
     const hci_fitted_model none = {0};
+    const hci_binned_samples *samples = s->regression->samples;
     bool other = false;
-    if (!s->options->slip) return HCI_OK;
-    const hci_status status = is_of_another(s, &none, &other, note);
+    hci_status status = HCI_OK;
+    a->slip = hci_creeping_angle(s->regression->machine, samples->statistics, samples->run_count);
+    if (!a->slip) status = hci_search_residual(s, &none.candidates, note);
+    if (!a->slip && !status)
+        a->slip = hci_slip_of_size(samples, s->regression->runs, s->regression->use, s->residual_Nm);
+    if (!a->slip && !status && s->options->slip) status = is_of_another(s, &none, &other, note);
     if (other) a->slip = s->options->slip(s->options->slip_context);
     a->not_searched = a->unknown = a->slip != NULL;
     return status;
@@ -380,6 +386,7 @@ static hci_status convention_judge(hci_search *s, hci_attribution *a, hci_note *
 static hci_status model_find(hci_search *s, hci_attribution *a, hci_note *note)
 {
     hci_status status = hci_search_rounds(s, &a->model, note);
+    if (!status) status = hci_search_without_denied(s, &a->model, note);
     if (status) return status;
     hci_search_begin(s, "weighing the evidence", HCI_ROUNDS_SHARE, 1.0);
     status = predictive_find(s, &a->model, note);

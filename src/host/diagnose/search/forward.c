@@ -403,6 +403,11 @@ static comparison comparison_from(hci_search *s, const hci_fitted_model *present
         s, present, {{NULL, 0, 0.0}, {0.0, 0, 0.0, 0.0}}, present->fit.score - HCI_DECISIVE, false};
 }
 
+static bool is_denied(const hci_search *s, size_t type)
+{
+    return s->denied && s->denied[type];
+}
+
 hci_status hci_search_forward(hci_search *s, hci_fitted_model *model, bool *added, hci_note *note)
 {
     comparison c = comparison_from(s, model);
@@ -414,11 +419,14 @@ hci_status hci_search_forward(hci_search *s, hci_fitted_model *model, bool *adde
     status = believed_enter(&c, &t, note);
     hci_candidate_models_release(&t);
     for (size_t r = 0; hci_effect_type_at(r) && !status && !hci_search_is_over(s); ++r)
-        if (hci_effect_type_at(r)->resonance) status = resonance_enter(&c, hci_effect_type_at(r), note);
+        if (hci_effect_type_at(r)->resonance && !is_denied(s, r))
+            status = resonance_enter(&c, hci_effect_type_at(r), note);
     for (size_t r = 0; hci_effect_type_at(r) && !status && !hci_search_is_over(s); ++r)
-        if (hci_effect_type_at(r)->lag) status = lag_enter(&c, hci_effect_type_at(r), note);
+        if (hci_effect_type_at(r)->lag && !is_denied(s, r))
+            status = lag_enter(&c, hci_effect_type_at(r), note);
     for (size_t r = 0; hci_effect_type_at(r) && !status && !hci_search_is_over(s); ++r)
-        if (hci_effect_type_at(r)->late) status = late_enter(&c, hci_effect_type_at(r), note);
+        if (hci_effect_type_at(r)->late && !is_denied(s, r))
+            status = late_enter(&c, hci_effect_type_at(r), note);
     if (!status && c.best.candidates.candidate) {
         coming_note(s, model, &c.best);
         hci_fitted_model_replace(model, &c.best);

@@ -3,12 +3,12 @@
 #include <math.h>
 
 #include "host/diagnose/candidates/empirical_term.h"
+#include "host/diagnose/candidates/slip.h"
 #include "host/diagnose/search/backward.h"
 #include "host/diagnose/search/belief.h"
 #include "host/diagnose/search/rivals.h"
 #include "host/diagnose/search/rounds.h"
 #include "host/diagnose/search/settle.h"
-#include "host/diagnose/candidates/slip.h"
 #include "host/diagnose/search/stability.h"
 
 #define LITTLE 0.01 /* of the largest current, that is none */
@@ -88,6 +88,7 @@ static hci_status effects_find(hci_search *s, hci_fitted_model *model, bool *fou
 {
     hci_status status = hci_search_rounds(s, model, note);
     *found = false;
+    if (!status) status = hci_search_without_denied(s, model, note);
     if (!status) status = hci_search_keep_predictive(s, model, note);
     if (!status) status = hci_search_drop_unsure(s, model, note);
     if (!status) status = hci_search_keep_brakes(s, model, note);

@@ -13,4 +13,11 @@
 /* HCI_ERROR_MEMORY. */
 hci_status hci_search_rounds(hci_search *search, hci_fitted_model *model, hci_note *note);
 
+/* Where effects of sensors that explain most of what a model does would not stay in it, looks for others
+ * without them, and takes those where they explain nearly as much and stay. One step takes the effect that
+ * explains most at once, and a sensor so slow that it shows no ripple explains all ripple that a machine has
+ * too much of, whichever effects those are. Where runs left out, or its own errors, then speak against it, it
+ * leaves, and what it stood for has never been looked for. HCI_ERROR_MEMORY. */
+hci_status hci_search_without_denied(hci_search *search, hci_fitted_model *model, hci_note *note);
+
 #endif
