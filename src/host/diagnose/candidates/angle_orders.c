@@ -3,6 +3,8 @@
 #include <math.h>
 
 #include "host/base/memory.h"
+#include "host/numeric/rotor.h"
+#include "host/numeric/wide.h"
 
 #define STANDS_OUT 20.0 /* fall of χ² */
 #define AGREES     0.8  /* share of what two angles explain, one for each torque, that one explains */
@@ -15,12 +17,12 @@ enum { LOAD, TEETH, KINDS };
 /* Sums over all samples, with orders 1 … count of the stride, of both slopes. */
 typedef struct {
     size_t stride, count;
-    double *wave;         /* [count][KINDS][2]: Σ w r g × cos and sin */
+    double *wave[KINDS];  /* [2][count + 1]: Σ w r g × cos and sin of 0 … count */
     double square[KINDS]; /* Σ w g² */
     double cross;         /* Σ w g g of the two */
     double *left;         /* [count][2]: of both together, of what is left */
     bool *open;           /* [count] */
-    double *spectrum;     /* [2 count + 1][2]: Σ w g² of both together × cos and sin of 0 … 2 count */
+    double *spectrum;     /* [2][2 count + 1]: Σ w g² of both together × cos and sin of 0 … 2 count */
 } sums;
 
 static bool shows(const hci_candidates_source *s, size_t run)
@@ -30,33 +32,22 @@ static bool shows(const hci_candidates_source *s, size_t run)
 }
 
 /* weighted: w r g. */
-static void waves_add(sums *sum, double theta_m_rad, const double weighted[KINDS])
+HCI_WIDE static void waves_add(sums *sum, double theta_m_rad, const double weighted[KINDS])
 {
-    const double angle = theta_m_rad * (double)sum->stride, c = cos(angle), s = sin(angle);
-    double x = 1.0, y = 0.0;
-    for (double *at = sum->wave; at < sum->wave + 2 * KINDS * sum->count; at += 2 * KINDS) {
-        const double next = c * x - s * y;
-        y = s * x + c * y;
-        x = next;
-        for (int kind = 0; kind < KINDS; ++kind) {
-            at[2 * kind] += weighted[kind] * x;
-            at[2 * kind + 1] += weighted[kind] * y;
-        }
+    const size_t count = sum->count + 1;
+    hci_rotor r = hci_rotor_at(theta_m_rad * (double)sum->stride);
+    for (size_t k = 0; k < count; k += HCI_ROTOR_LANES) {
+        const size_t lanes = count - k < HCI_ROTOR_LANES ? count - k : HCI_ROTOR_LANES;
+        for (int kind = 0; kind < KINDS; ++kind)
+            hci_rotor_add(&r, weighted[kind], sum->wave[kind] + k, lanes, count);
+        hci_rotor_turn(&r);
     }
 }
 
 /* weighted: w g² of both slopes together. */
-static void spectrum_add(sums *sum, double theta_m_rad, double weighted)
+HCI_WIDE static void spectrum_add(sums *sum, double theta_m_rad, double weighted)
 {
-    const double angle = theta_m_rad * (double)sum->stride, c = cos(angle), s = sin(angle);
-    double x = 1.0, y = 0.0;
-    for (size_t k = 0; k <= 2 * sum->count; ++k) {
-        const double next = c * x - s * y;
-        sum->spectrum[2 * k] += weighted * x;
-        sum->spectrum[2 * k + 1] += weighted * y;
-        y = s * x + c * y;
-        x = next;
-    }
+    hci_rotor_sum(theta_m_rad * (double)sum->stride, weighted, 2 * sum->count + 1, sum->spectrum);
 }
 
 /* ∂T/∂θ_m of the torque with the currents and of the cogging torque. */
@@ -132,7 +123,8 @@ static bool open_find(sums *sum)
 {
     bool any = false;
     for (size_t k = 0; k < sum->count; ++k) {
-        const double *load = sum->wave + 2 * KINDS * k, *teeth = load + 2;
+        const double load[2] = {sum->wave[LOAD][k + 1], sum->wave[LOAD][sum->count + k + 2]};
+        const double teeth[2] = {sum->wave[TEETH][k + 1], sum->wave[TEETH][sum->count + k + 2]};
         sum->left[2 * k] = load[0] + teeth[0];
         sum->left[2 * k + 1] = load[1] + teeth[1];
         sum->open[k] = strength(sum, k) > AGREES * strength_of_two(sum, load, teeth);
@@ -146,19 +138,19 @@ static bool open_find(sums *sum)
  * is ½a(C(j−k) + C(j+k)) + ½b(S(j+k) − S(j−k)), and with sin jθ ½a(S(j+k) + S(j−k)) + ½b(C(j−k) − C(j+k)). */
 static void take_out(sums *sum, size_t k)
 {
-    const double *two = sum->spectrum + 4 * (k + 1), whole = sum->spectrum[0];
+    const double *cosines = sum->spectrum, *sines = cosines + 2 * sum->count + 1, whole = cosines[0];
     const double cosine = sum->left[2 * k], sine = sum->left[2 * k + 1];
-    const double cc = 0.5 * (whole + two[0]), ss = 0.5 * (whole - two[0]), cs = 0.5 * two[1];
+    const double cc = 0.5 * (whole + cosines[2 * k + 2]), ss = 0.5 * (whole - cosines[2 * k + 2]);
+    const double cs = 0.5 * sines[2 * k + 2];
     const double d = cc * ss - cs * cs;
     sum->open[k] = false;
     if (!(d > APART * whole * whole)) return;
     const double a = (ss * cosine - cs * sine) / d, b = (cc * sine - cs * cosine) / d;
     for (size_t j = 0; j < sum->count; ++j) {
-        const double *more = sum->spectrum + 2 * (j + k + 2),
-                     *less = sum->spectrum + 2 * (j > k ? j - k : k - j);
-        const double turned = j > k ? less[1] : -less[1];
-        sum->left[2 * j] -= 0.5 * (a * (less[0] + more[0]) + b * (more[1] - turned));
-        sum->left[2 * j + 1] -= 0.5 * (a * (more[1] + turned) + b * (less[0] - more[0]));
+        const size_t more = j + k + 2, less = j > k ? j - k : k - j;
+        const double turned = j > k ? sines[less] : -sines[less];
+        sum->left[2 * j] -= 0.5 * (a * (cosines[less] + cosines[more]) + b * (sines[more] - turned));
+        sum->left[2 * j + 1] -= 0.5 * (a * (sines[more] + turned) + b * (cosines[less] - cosines[more]));
     }
 }
 
@@ -177,10 +169,12 @@ static void strongest(sums *sum, int pole_pairs, hci_angle_orders *x)
 
 static bool sums_make(sums *sum)
 {
-    sum->wave = hci_memory_new((2 * KINDS + 2 + 4) * sum->count + 2, sizeof *sum->wave);
+    const size_t one = 2 * (sum->count + 1);
+    sum->wave[LOAD] = hci_memory_new(KINDS * one + 6 * sum->count + 2, sizeof *sum->wave[LOAD]);
     sum->open = hci_memory_new(sum->count + 1, sizeof *sum->open);
-    if (!sum->wave || !sum->open) return false;
-    sum->left = sum->wave + 2 * KINDS * sum->count;
+    if (!sum->wave[LOAD] || !sum->open) return false;
+    sum->wave[TEETH] = sum->wave[LOAD] + one;
+    sum->left = sum->wave[TEETH] + one;
     sum->spectrum = sum->left + 2 * sum->count;
     return true;
 }
@@ -204,7 +198,7 @@ bool hci_angle_orders_find(const hci_candidates_source *s, size_t stride, double
         segments_add(s, &sum, segment_spectrum_add);
         strongest(&sum, s->machine->pole_pairs, x);
     }
-    hci_memory_free(sum.wave);
+    hci_memory_free(sum.wave[LOAD]);
     hci_memory_free(sum.open);
     return made;
 }

@@ -6,6 +6,7 @@
 #include "host/base/memory.h"
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/numeric/divisor.h"
+#include "host/numeric/rotor.h"
 #include "host/numeric/wide.h"
 #include "host/recording/rotor_frame.h"
 
@@ -68,57 +69,19 @@ typedef struct {
     double weight, weight_iq;
 } sums;
 
-enum { LANES = 8 }; /* orders side by side */
-
-/* cos and sin of LANES orders, and of a step of as many. */
-typedef struct {
-    double x[LANES], y[LANES], cosine, sine;
-} rotor;
-
-static rotor rotor_at(double angle_rad)
-{
-    const double cs = cos(angle_rad), sn = sin(angle_rad);
-    rotor r = {{1.0}, {0.0}, 1.0, 0.0};
-    for (size_t k = 0; k < LANES; ++k) {
-        r.x[k] = r.cosine;
-        r.y[k] = r.sine;
-        r.cosine = cs * r.x[k] - sn * r.y[k];
-        r.sine = sn * r.x[k] + cs * r.y[k];
-    }
-    return r;
-}
-
-/* Adds so many sums with the orders where the rotor stands. to: cosines, and `count` further on the sines. */
-static inline void lanes_add(const rotor *r, double value, double *restrict to, size_t lanes, size_t count)
-{
-    for (size_t j = 0; j < lanes; ++j) {
-        to[j] += value * r->x[j];
-        to[count + j] += value * r->y[j];
-    }
-}
-
-static inline void rotor_turn(rotor *r)
-{
-    for (size_t j = 0; j < LANES; ++j) {
-        const double x = r->x[j];
-        r->x[j] = r->cosine * x - r->sine * r->y[j];
-        r->y[j] = r->sine * x + r->cosine * r->y[j];
-    }
-}
-
 /* residual: weighted. of_run: sums of the sample's run. */
 HCI_WIDE static void sample_add(double angle_rad, double residual, double iq, size_t count,
                                 double *with_current, double *of_run)
 {
-    rotor r = rotor_at(angle_rad);
+    hci_rotor r = hci_rotor_at(angle_rad);
     size_t k = 0;
-    for (; k + LANES <= count; k += LANES) {
-        lanes_add(&r, residual, of_run + k, LANES, count);
-        lanes_add(&r, residual * iq, with_current + k, LANES, count);
-        rotor_turn(&r);
+    for (; k + HCI_ROTOR_LANES <= count; k += HCI_ROTOR_LANES) {
+        hci_rotor_add(&r, residual, of_run + k, HCI_ROTOR_LANES, count);
+        hci_rotor_add(&r, residual * iq, with_current + k, HCI_ROTOR_LANES, count);
+        hci_rotor_turn(&r);
     }
-    lanes_add(&r, residual, of_run + k, count - k, count);
-    lanes_add(&r, residual * iq, with_current + k, count - k, count);
+    hci_rotor_add(&r, residual, of_run + k, count - k, count);
+    hci_rotor_add(&r, residual * iq, with_current + k, count - k, count);
 }
 
 static void segment_add(const hci_candidates_source *s, const hci_segment *x, double mean,

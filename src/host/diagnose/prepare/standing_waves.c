@@ -5,32 +5,31 @@
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/numeric/rotor.h"
 #include "host/numeric/statistics.h"
+#include "host/numeric/wide.h"
 
 #define BY_CHANCE 10.0 /* times the mean square that noise has at a wave: once in 2·10⁴ */
 
 enum { LEAST_WAVES = 8 }; /* of which a median tells the noise */
 
-/* The largest squared amplitudes of waves stride, 2·stride … of all axes. sums: [2][count]. */
+/* sums: [2][count] of waves 0, stride, 2·stride … */
+HCI_WIDE static void sums_fill(const hci_standing_waves *q, const double *value, size_t count, double *sums)
+{
+    memset(sums, 0, 2 * count * sizeof *sums);
+    for (size_t j = 0; j < q->n; ++j)
+        hci_rotor_sum((double)q->stride * q->theta_m_rad[j], value[j], count, sums);
+}
+
+/* The largest squared amplitudes of waves stride, 2·stride … of all axes. sums: room for [2][count + 1]. */
 static void axis_add(const hci_standing_waves *q, const double *value, size_t count, double *sums,
                      double *square)
 {
-    double *cosine = sums, *sine = sums + count;
-    memset(sums, 0, 2 * count * sizeof *sums);
-    for (size_t j = 0; j < q->n; ++j) {
-        const double angle = (double)q->stride * q->theta_m_rad[j], c = cos(angle), s = sin(angle);
-        double x = 1.0, y = 0.0;
-        for (size_t k = 0; k < count; ++k) {
-            const double next = c * x - s * y;
-            y = s * x + c * y;
-            x = next;
-            cosine[k] += value[j] * x;
-            sine[k] += value[j] * y;
-        }
-    }
+    const double *cosine = sums + 1, *sine = cosine + count + 1;
+    const double n = (double)q->n;
+    sums_fill(q, value, count + 1, sums);
     for (size_t k = 0; k < count; ++k)
-        square[k] = fmax(square[k],
-                         4.0 * (cosine[k] * cosine[k] + sine[k] * sine[k]) / ((double)q->n * (double)q->n));
+        square[k] = fmax(square[k], 4.0 * (cosine[k] * cosine[k] + sine[k] * sine[k]) / (n * n));
 }
 
 static bool is_apart(const hci_standing_waves *q, size_t period, const size_t *periods, size_t count)
@@ -66,7 +65,7 @@ static size_t strongest(const hci_standing_waves *q, double *square, size_t coun
 bool hci_standing_waves_find(const hci_standing_waves *q, size_t most, size_t *periods, size_t *taken)
 {
     const size_t count = q->most_periods / q->stride;
-    double *square = hci_memory_new(4 * count + 1, sizeof *square), *sorted = square + count;
+    double *square = hci_memory_new(4 * count + 2, sizeof *square), *sorted = square + count;
     *taken = 0;
     if (!square) return false;
     for (size_t k = 0; k < q->axes; ++k)
