@@ -372,6 +372,7 @@ static hci_status convention_judge(hci_search *s, hci_attribution *a, hci_note *
     const hci_binned_samples *samples = s->regression->samples;
     bool other = false;
     hci_status status = HCI_OK;
+    hci_search_begin(s, "looking for slips of the recordings", 0.0, 0.0);
     a->slip = hci_creeping_angle(s->regression->machine, samples->statistics, samples->run_count);
     if (!a->slip) status = hci_search_residual(s, &none.candidates, note);
     if (!a->slip && !status)
