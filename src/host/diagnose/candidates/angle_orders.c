@@ -1,6 +1,7 @@
 #include "host/diagnose/candidates/angle_orders.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "host/base/memory.h"
 #include "host/numeric/rotor.h"
@@ -8,6 +9,7 @@
 
 #define STANDS_OUT 20.0 /* fall of χ² */
 #define AGREES     0.8  /* share of what two angles explain, one for each torque, that one explains */
+#define OF_ALL     0.5  /* share of what an angle for each run explains, that one for all does */
 #define APART      1e-6 /* of the squares of two slopes, by which they are not the same */
 
 enum { MOST_PERIODS = 300 /* in a mechanical turn */ };
@@ -18,6 +20,10 @@ enum { LOAD, TEETH, KINDS };
 typedef struct {
     size_t stride, count;
     double *wave[KINDS];  /* [2][count + 1]: Σ w r g × cos and sin of 0 … count */
+    double *of_run;       /* the same of one run, both slopes together */
+    double run_square;    /* Σ w g² of it */
+    double *own;          /* [count]: what errors of their own would explain, each in its run */
+    size_t run, runs;     /* that one; that have such a slope */
     double square[KINDS]; /* Σ w g² */
     double cross;         /* Σ w g g of the two */
     double *left;         /* [count][2]: of both together, of what is left */
@@ -40,6 +46,7 @@ HCI_WIDE static void waves_add(sums *sum, double theta_m_rad, const double weigh
         const size_t lanes = count - k < HCI_ROTOR_LANES ? count - k : HCI_ROTOR_LANES;
         for (int kind = 0; kind < KINDS; ++kind)
             hci_rotor_add(&r, weighted[kind], sum->wave[kind] + k, lanes, count);
+        hci_rotor_add(&r, weighted[LOAD] + weighted[TEETH], sum->of_run + k, lanes, count);
         hci_rotor_turn(&r);
     }
 }
@@ -69,9 +76,27 @@ static double mean_of(const hci_candidates_source *s, const hci_segment *segment
     return weight > 0.0 ? sum / weight : 0.0;
 }
 
+static double fall_of(double cosine, double sine, double square)
+{
+    return square > 0.0 ? 2.0 * (cosine * cosine + sine * sine) / square : 0.0;
+}
+
+/* What the run that ends here asks for, by itself. */
+static void run_end(sums *sum, size_t next)
+{
+    const double *cosine = sum->of_run + 1, *sine = cosine + sum->count + 1;
+    for (size_t k = 0; k < sum->count; ++k)
+        sum->own[k] += fall_of(cosine[k], sine[k], sum->run_square);
+    sum->runs += sum->run_square > 0.0;
+    sum->run_square = 0.0;
+    sum->run = next;
+    memset(sum->of_run, 0, 2 * (sum->count + 1) * sizeof *sum->of_run);
+}
+
 static void segment_add(const hci_candidates_source *s, const hci_segment *segment, sums *sum)
 {
     const double mean = mean_of(s, segment);
+    if (segment->run != sum->run) run_end(sum, segment->run);
     for (size_t j = segment->first; j < segment->first + segment->count; ++j) {
         const hci_sample *x = &s->samples->sample[j].reading;
         const double w = 1.0 / s->variance[j], residual_Nm = s->residual_Nm[j] - mean;
@@ -82,6 +107,7 @@ static void segment_add(const hci_candidates_source *s, const hci_segment *segme
         for (int kind = 0; kind < KINDS; ++kind)
             sum->square[kind] += w * slope[kind] * slope[kind];
         sum->cross += w * slope[LOAD] * slope[TEETH];
+        sum->run_square += w * pow(slope[LOAD] + slope[TEETH], 2.0);
     }
 }
 
@@ -93,11 +119,6 @@ static void segment_spectrum_add(const hci_candidates_source *s, const hci_segme
         spectrum_add(sum, s->samples->sample[j].reading.theta_m_rad,
                      pow(slope[LOAD] + slope[TEETH], 2.0) / s->variance[j]);
     }
-}
-
-static double fall_of(double cosine, double sine, double square)
-{
-    return square > 0.0 ? 2.0 * (cosine * cosine + sine * sine) / square : 0.0;
 }
 
 /* What two errors of the angle of one order would explain, one for each torque. */
@@ -118,7 +139,14 @@ static double strength(const sums *sum, size_t k)
     return fall_of(sum->left[2 * k], sum->left[2 * k + 1], square);
 }
 
-/* Those of which the two torques do not ask for different errors. Whether one of them stands out. */
+/* Whether one error for all runs explains what each would ask for, less what chance makes of that. */
+static bool is_of_all(const sums *sum, size_t k)
+{
+    return strength(sum, k) > OF_ALL * (sum->own[k] - 2.0 * (double)sum->runs);
+}
+
+/* Those of which neither the two torques nor the runs ask for different errors. Whether one of them stands
+ * out. */
 static bool open_find(sums *sum)
 {
     bool any = false;
@@ -127,7 +155,7 @@ static bool open_find(sums *sum)
         const double teeth[2] = {sum->wave[TEETH][k + 1], sum->wave[TEETH][sum->count + k + 2]};
         sum->left[2 * k] = load[0] + teeth[0];
         sum->left[2 * k + 1] = load[1] + teeth[1];
-        sum->open[k] = strength(sum, k) > AGREES * strength_of_two(sum, load, teeth);
+        sum->open[k] = strength(sum, k) > AGREES * strength_of_two(sum, load, teeth) && is_of_all(sum, k);
         any = any || (sum->open[k] && strength(sum, k) > STANDS_OUT);
     }
     return any;
@@ -170,12 +198,14 @@ static void strongest(sums *sum, int pole_pairs, hci_angle_orders *x)
 static bool sums_make(sums *sum)
 {
     const size_t one = 2 * (sum->count + 1);
-    sum->wave[LOAD] = hci_memory_new(KINDS * one + 6 * sum->count + 2, sizeof *sum->wave[LOAD]);
+    sum->wave[LOAD] = hci_memory_new((KINDS + 1) * one + 7 * sum->count + 2, sizeof *sum->wave[LOAD]);
     sum->open = hci_memory_new(sum->count + 1, sizeof *sum->open);
     if (!sum->wave[LOAD] || !sum->open) return false;
     sum->wave[TEETH] = sum->wave[LOAD] + one;
-    sum->left = sum->wave[TEETH] + one;
-    sum->spectrum = sum->left + 2 * sum->count;
+    sum->of_run = sum->wave[TEETH] + one;
+    sum->left = sum->of_run + one;
+    sum->own = sum->left + 2 * sum->count;
+    sum->spectrum = sum->own + sum->count;
     return true;
 }
 
@@ -194,6 +224,7 @@ bool hci_angle_orders_find(const hci_candidates_source *s, size_t stride, double
     const bool made = sums_make(&sum);
     x->count = 0;
     if (made) segments_add(s, &sum, segment_add);
+    if (made) run_end(&sum, sum.run);
     if (made && open_find(&sum)) {
         segments_add(s, &sum, segment_spectrum_add);
         strongest(&sum, s->machine->pole_pairs, x);

@@ -67,8 +67,8 @@ static void err(const double *periods, const double *error_rad, size_t count)
         double read_rad = theta_rad;
         for (size_t j = 0; j < count; ++j)
             read_rad += error_rad[j] * sin(periods[j] * x->theta_m_rad + 0.4 + 0.6 * (double)j);
-        residual_Nm[k] +=
-            hci_torque_at(&MACHINE, theta_rad, x->i_abc) - hci_torque_at(&MACHINE, read_rad, x->i_abc);
+        residual_Nm[k] += hci_torque_at(source.machine, theta_rad, x->i_abc) -
+                          hci_torque_at(source.machine, read_rad, x->i_abc);
     }
 }
 
@@ -113,6 +113,23 @@ static void test_what_load_alone_shows(void)
         TEST_ASSERT_TRUE(fabs(found.order[k] - 6.0) > 0.1);
 }
 
+/* Iron that saturates asks each run for another error, where no cogging torque asks for any. */
+static void test_what_runs_do_not_share(void)
+{
+    static const double PERIODS[] = {18.0}, ERROR_RAD[] = {0.02}, OF_RUN[RUNS] = {0.0, 1.0, -0.5, 0.7};
+    hci_machine smooth = MACHINE;
+    smooth.cogging_count = 0;
+    source.machine = &smooth;
+    err(PERIODS, ERROR_RAD, 1);
+    find();
+    TEST_ASSERT_EQUAL_DOUBLE(18.0 / P, found.order[0]);
+    for (size_t k = 0; k < COUNT; ++k)
+        residual_Nm[k] *= OF_RUN[k / SAMPLES];
+    find();
+    for (size_t k = 0; k < found.count; ++k)
+        TEST_ASSERT_TRUE(fabs(found.order[k] - 6.0) > 0.1);
+}
+
 /* Runs that are held tell no torque, and those that are not in use nothing. */
 static void test_runs_that_tell_nothing(void)
 {
@@ -132,6 +149,7 @@ int main(void)
     RUN_TEST(test_errors_between_lines);
     RUN_TEST(test_noise_is_no_error);
     RUN_TEST(test_what_load_alone_shows);
+    RUN_TEST(test_what_runs_do_not_share);
     RUN_TEST(test_runs_that_tell_nothing);
     return UNITY_END();
 }
