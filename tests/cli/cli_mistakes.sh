@@ -43,7 +43,8 @@ log $names 's/,/	/g; s/\./,/g'; sed -i '1s/,/	/g' r.csv; cogging 0 'the speed is
 log $names 's/,/;/g; s/;[^;]*$/;1.234/; s/0\.\([0-9]*;\)/0,\1/'; sed -i '1s/,/;/g' r.csv
 cogging 3 'r.csv:2: column 4 `torque_Nm`: found `1.234`, expected one decimal mark in all of the file' 'no marks between thousands'
 log $names 's/,[^,]*$/,"1,234"/'; cogging 3 'column 4 `torque_Nm`: found `1,234`' 'may be a number or a thousand times it'
-log $names 's/,[^,]*$/,0.1 Nm/'; cogging 3 'found `0.1 Nm`' 'write the unit into the column.s name' '399 more cells of the column are none: lines 3, 4, 5, ...'
+log $names 's/,\([^,]*\)$/,\1 Nm/'; cogging 0 'the speed is the slope of the angle'
+log $names 's/,[^,]*$/,0.1 A/'; cogging 3 'found `0.1 A`' 'write the unit into the column.s name' '399 more cells of the column are none: lines 3, 4, 5, ...'
 log $names '9s/,[^,]*$/,NaN/; 5s/,[^,]*$/,/'; cogging 0 '2 of 400 rows have a hole and are left out, first line 6, column 4 `torque_Nm`: found an empty cell'
 log $names '9s/,[^,]*$/,NaN/'; cogging 3 'r.csv:10: column 4 `torque_Nm`: found `NaN`' -- --strict
 log $names '1,300s/,[^,]*$/,#DIV\/0!/'; cogging 3 'found `#DIV/0!`' 'a spreadsheet writes this for an error' '299 more cells'
