@@ -419,42 +419,63 @@ static hci_status look_at(void *context, const hci_effects *effects, hci_note *n
     return hci_suspect_ask(context, effects, note);
 }
 
+/* What changes the torque by less than a share of its range is nothing. */
+static double resolution_of(const hci_dataset *b, const task *t)
+{
+    const double share = t->options->resolution > 0.0 ? t->options->resolution : RESOLUTION;
+    return share * hci_dataset_range_of(b).torque_Nm;
+}
+
+static hci_attribute_options how_to(const hci_dataset *b, const task *t)
+{
+    return (hci_attribute_options){t->runs->run,
+                                   resolution_of(b, t),
+                                   t->machine->rated_current_A,
+                                   t->machine->slots > 0.0 ? (size_t)t->machine->slots : 0,
+                                   t->machine->has_neutral,
+                                   t->options->progress,
+                                   t->options->progress_context,
+                                   t->options->stop,
+                                   t->options->stop_context,
+                                   t->options->slip,
+                                   t->options->slip_context,
+                                   t->suspect ? look_at : NULL,
+                                   t->suspect};
+}
+
+/* From what the search found to the verdict. */
+static hci_status judge(hci_dataset *b, const task *t, hci_attribution *a, hci_diagnosis *d, hci_note *note)
+{
+    const double resolution_Nm = resolution_of(b, t);
+    hci_status status = a->unknown ? HCI_OK : misleading_leave(b, t->runs, a, note);
+    if (!status) status = hci_next_points_tell_apart(&b->regression, t->machine, a, d, note);
+    if (!status) status = fill(b, t->runs, a, d, note);
+    if (!status) status = conclude(b, t->machine, t->runs, resolution_Nm, a, d, note);
+    if (!status) status = much_is_unknown(b, t->runs, resolution_Nm, a, d, note);
+    if (status) return status;
+    drowned_judge(b, t->machine, d);
+    loose_swings_judge(d);
+    return HCI_OK;
+}
+
+/* How to load a shaft that is held is not known. */
+static hci_status propose_points(hci_dataset *b, const task *t, hci_diagnosis *d, hci_note *note)
+{
+    if (!any_turns(b, t->runs)) return HCI_OK;
+    const hci_status status = hci_next_points_unknown(&b->regression, t->machine, d, note);
+    return status ? status : hci_next_points_left_open(&b->regression, t->machine, d, note);
+}
+
 static hci_status diagnose(hci_dataset *b, const task *t, hci_diagnosis *d, hci_note *note)
 {
-    const hci_machine_data *machine = t->machine;
-    const hci_runs *runs = t->runs;
-    const hci_diagnose_options *options = t->options;
-    const double resolution = options->resolution > 0.0 ? options->resolution : RESOLUTION;
-    const hci_attribute_options how = {runs->run,
-                                       resolution * hci_dataset_range_of(b).torque_Nm,
-                                       machine->rated_current_A,
-                                       machine->slots > 0.0 ? (size_t)machine->slots : 0,
-                                       machine->has_neutral,
-                                       options->progress,
-                                       options->progress_context,
-                                       options->stop,
-                                       options->stop_context,
-                                       options->slip,
-                                       options->slip_context,
-                                       t->suspect ? look_at : NULL,
-                                       t->suspect};
-    hci_watch watch = {options->stop, options->stop_context, options->progress, options->progress_context,
-                       false};
+    const hci_attribute_options how = how_to(b, t);
+    hci_watch watch = {how.stop, how.stop_context, how.progress, how.context, false};
     hci_attribution a;
     b->regression.watch = &watch;
     hci_status status = hci_attribute(&b->regression, &how, &a, note);
     if (status) return status;
-    if (!a.unknown) status = misleading_leave(b, runs, &a, note);
-    if (!status) status = hci_next_points_tell_apart(&b->regression, machine, &a, d, note);
-    if (!status) status = fill(b, runs, &a, d, note);
-    if (!status) status = conclude(b, machine, runs, how.resolution_Nm, &a, d, note);
-    if (!status) status = much_is_unknown(b, runs, how.resolution_Nm, &a, d, note);
-    if (!status) drowned_judge(b, machine, d);
-    if (!status) loose_swings_judge(d);
-    const bool asks =
-        !a.not_searched && any_turns(b, runs); /* how to load a shaft that is held is not known */
-    if (!status && asks) status = hci_next_points_unknown(&b->regression, machine, d, note);
-    if (!status && asks) status = hci_next_points_left_open(&b->regression, machine, d, note);
+    status = judge(b, t, &a, d, note);
+    if (!status && !a.not_searched) status = propose_points(b, t, d, note);
     hci_attribution_release(&a);
     return status;
 }

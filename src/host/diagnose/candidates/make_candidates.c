@@ -226,39 +226,62 @@ static bool has_direct(const hci_candidates_source *s)
     return any;
 }
 
-static void add_all(builder *b, const hci_candidates_source *s, hci_effect_survey *x,
-                    const hci_candidate_orders *lines)
-{
+/* What a survey points into. */
+typedef struct {
     double slot[MOST_SLOT_ORDERS], turn[MOST_TURN_ORDERS], load[MOST_TURN_ORDERS];
     hci_flux_orders flux;
     hci_angle_orders angle;
     hci_effect_speed_mean of_speed[HCI_SPEED_MEANS];
-    const hci_effect_proposals to = {add, b};
+} surveyed;
+
+static void survey_lines(const hci_candidates_source *s, const hci_candidate_orders *lines, surveyed *f,
+                         hci_effect_survey *x)
+{
+    const int p = s->machine->pole_pairs;
     x->has_turn = lines->stride == 1;
     x->orders = (double)lines->count;
-    x->slot_order = slot;
-    x->slot_orders = orders_of(lines, s->machine->pole_pairs, HCI_ORDERS_OF_SLOTS, MOST_SLOT_ORDERS, slot);
-    x->turn_order = turn;
-    x->turn_orders = orders_of(lines, s->machine->pole_pairs, HCI_ORDERS_OF_TURN, MOST_TURN_ORDERS, turn);
-    x->load_order = load;
-    x->load_orders = orders_of(lines, s->machine->pole_pairs, HCI_ORDERS_OF_LOAD, MOST_TURN_ORDERS, load);
-    x->poles_differ =
-        !has_direct(s) && hci_candidate_orders_poles_differ(lines, (size_t)s->machine->pole_pairs);
-    b->failed = !hci_flux_orders_find(s, x->has_turn, &flux) ||
-                !hci_angle_orders_find(s, lines->stride, lines->resolved, &angle);
-    if (b->failed) return;
-    x->flux_order = flux.order;
-    x->flux_orders = flux.count;
-    x->one_gain = flux.one_gain;
-    x->angle_order = angle.order;
-    x->angle_orders = angle.count;
-    x->of_speed = of_speed;
-    x->of_speeds = hci_residual_by_speed(s, of_speed);
-    for (size_t r = 0; (b->type = hci_effect_type_at(r)) != NULL; ++r)
-        if (b->type->propose && !(s->denied && s->denied[r]) &&
-            (!s->magnetic_only || is_magnetic(s, b->type, x->current_A)))
-            b->type->propose(x, &to);
-    if (!s->known_only) add_unknown(b, s, lines);
+    x->slot_order = f->slot;
+    x->slot_orders = orders_of(lines, p, HCI_ORDERS_OF_SLOTS, MOST_SLOT_ORDERS, f->slot);
+    x->turn_order = f->turn;
+    x->turn_orders = orders_of(lines, p, HCI_ORDERS_OF_TURN, MOST_TURN_ORDERS, f->turn);
+    x->load_order = f->load;
+    x->load_orders = orders_of(lines, p, HCI_ORDERS_OF_LOAD, MOST_TURN_ORDERS, f->load);
+    x->poles_differ = !has_direct(s) && hci_candidate_orders_poles_differ(lines, (size_t)p);
+}
+
+/* False when memory is out. */
+static bool survey_residual(const hci_candidates_source *s, const hci_candidate_orders *lines, surveyed *f,
+                            hci_effect_survey *x)
+{
+    if (!hci_flux_orders_find(s, x->has_turn, &f->flux)) return false;
+    if (!hci_angle_orders_find(s, lines->stride, lines->resolved, &f->angle)) return false;
+    x->flux_order = f->flux.order;
+    x->flux_orders = f->flux.count;
+    x->one_gain = f->flux.one_gain;
+    x->angle_order = f->angle.order;
+    x->angle_orders = f->angle.count;
+    x->of_speed = f->of_speed;
+    x->of_speeds = hci_residual_by_speed(s, f->of_speed);
+    return true;
+}
+
+static bool is_looked_for(const hci_candidates_source *s, size_t r, double current_A)
+{
+    const hci_effect_type *type = hci_effect_type_at(r);
+    return type->propose && !(s->denied && s->denied[r]) &&
+           (!s->magnetic_only || is_magnetic(s, type, current_A));
+}
+
+static void add_all(builder *b, const hci_candidates_source *s, hci_effect_survey *x,
+                    const hci_candidate_orders *lines)
+{
+    surveyed found;
+    const hci_effect_proposals to = {add, b};
+    survey_lines(s, lines, &found, x);
+    b->failed = !survey_residual(s, lines, &found, x);
+    for (size_t r = 0; !b->failed && (b->type = hci_effect_type_at(r)) != NULL; ++r)
+        if (is_looked_for(s, r, x->current_A)) b->type->propose(x, &to);
+    if (!b->failed && !s->known_only) add_unknown(b, s, lines);
 }
 
 /* ---- the list ---- */
