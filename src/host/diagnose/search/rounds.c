@@ -102,7 +102,7 @@ static hci_status try_known(hci_search *s, hci_fitted_model *model, hci_note *no
 
 /* ---- direct current ---- */
 
-#define AS_GOOD 0.1 /* of what all effects explain, that those of the magnetic circuit may leave besides */
+#define AS_GOOD 0.1 /* of what a model explains, that another one in its place may leave besides */
 
 /* Whether all runs in use are of direct current: one length of the current vector each, and to each angle of
  * the rotor one direction. */
@@ -145,16 +145,16 @@ static hci_status square_of(hci_search *s, const hci_candidates *model, double *
     return status;
 }
 
-/* Whether the magnetic circuit explains nearly all that the effects of a model do. */
-static hci_status is_nearly_all(hci_search *s, const hci_candidates *magnetic, const hci_candidates *model,
-                                bool *nearly, hci_note *note)
+/* The share that one model leaves of what another explains; NAN where that explains nothing. */
+static hci_status share_left(hci_search *s, const hci_candidates *one, const hci_candidates *other,
+                             double *share, hci_note *note)
 {
     static const hci_candidates none = {0};
     double before = 0.0, after = 0.0, left = 0.0;
     hci_status status = square_of(s, &none, &before, note);
-    if (!status) status = square_of(s, model, &after, note);
-    if (!status) status = square_of(s, magnetic, &left, note);
-    *nearly = !status && left - after < AS_GOOD * (before - after);
+    if (!status) status = square_of(s, other, &after, note);
+    if (!status) status = square_of(s, one, &left, note);
+    *share = before > after ? (left - after) / (before - after) : (double)NAN;
     return status;
 }
 
@@ -164,7 +164,8 @@ static hci_status is_nearly_all(hci_search *s, const hci_candidates *magnetic, c
 static hci_status try_magnetic(hci_search *s, hci_fitted_model *model, hci_note *note)
 {
     hci_fitted_model magnetic = {0};
-    bool iron = false, others = false, nearly = false;
+    bool iron = false, others = false;
+    double share = NAN;
     if (!is_direct(s->regression)) return HCI_OK;
     hci_status status = hci_fitted_model_copy(model, &magnetic, note);
     if (status) return status;
@@ -173,7 +174,8 @@ static hci_status try_magnetic(hci_search *s, hci_fitted_model *model, hci_note 
     if (s->magnetic_only) status = hci_search_renew(s, &magnetic, note);
     if (!status && s->magnetic_only) status = rounds_run(s, &magnetic, note);
     if (!status && s->magnetic_only)
-        status = is_nearly_all(s, &magnetic.candidates, &model->candidates, &nearly, note);
+        status = share_left(s, &magnetic.candidates, &model->candidates, &share, note);
+    const bool nearly = !status && share < AS_GOOD;
     s->magnetic_only = s->known_only = nearly;
     if (!status && nearly) hci_fitted_model_replace(model, &magnetic);
     if (!status) status = hci_search_renew(s, model, note);
@@ -193,21 +195,7 @@ hci_status hci_search_rounds(hci_search *s, hci_fitted_model *model, hci_note *n
 
 /* ---- in place of what is denied ---- */
 
-#define MOST   0.5 /* of the square that a model explains */
-#define NEARLY 0.1 /* of the same, that others may leave besides */
-
-/* The share that one model leaves of what another explains. */
-static hci_status share_left(hci_search *s, const hci_candidates *one, const hci_candidates *other,
-                             double *share, hci_note *note)
-{
-    static const hci_candidates none = {0};
-    double before = 0.0, after = 0.0, left = 0.0;
-    hci_status status = square_of(s, &none, &before, note);
-    if (!status) status = square_of(s, other, &after, note);
-    if (!status) status = square_of(s, one, &left, note);
-    *share = before > after ? (left - after) / (before - after) : 0.0;
-    return status;
-}
+#define MOST 0.5 /* of the square that a model explains */
 
 static hci_status lasting_keep(hci_search *s, hci_fitted_model *model, hci_note *note)
 {
@@ -249,7 +237,7 @@ static hci_status try_others(hci_search *s, hci_fitted_model *model, hci_fitted_
     if (status || !(share > MOST)) return status;
     status = others_find(s, denied, others, note);
     if (!status) status = share_left(s, &others->candidates, &model->candidates, &share, note);
-    if (!status && share < NEARLY) hci_fitted_model_replace(model, others);
+    if (!status && share < AS_GOOD) hci_fitted_model_replace(model, others);
     return status;
 }
 
