@@ -1,5 +1,6 @@
 #include "cli/tune/tune_steps.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,20 +15,22 @@ typedef struct {
     double own_Nm, torque_Nm, with_Nm; /* ripple that its cut makes, at which torque, and all that is left */
 } table_header;
 
-static table_header read_header(const char *folder, const char *name)
+static hci_status read_header(const char *folder, const char *name, table_header *h, hci_note *note)
 {
     char path[2 * CLI_TUNE_PATH], line[512];
-    table_header h = {0};
+    memset(h, 0, sizeof *h);
     snprintf(path, sizeof path, "%s/%s.h", folder, name);
     FILE *f = fopen(path, "r");
-    while (f && fgets(line, sizeof line, f)) {
-        sscanf(line, " * Angle: uint32_t, 2^32 = %lu electrical turn", &h.turns);
+    if (!f && errno == ENOMEM) return hci_note_memory(note, path, "reading it");
+    if (!f) return hci_note_set(note, HCI_ERROR_INPUT, "%s: %s", path, strerror(errno));
+    while (fgets(line, sizeof line, f)) {
+        sscanf(line, " * Angle: uint32_t, 2^32 = %lu electrical turn", &h->turns);
         sscanf(line,
                " * Ripple: the cut to this table makes %lf N*m from peak to peak at %lf N*m; with it %lf N*m",
-               &h.own_Nm, &h.torque_Nm, &h.with_Nm);
+               &h->own_Nm, &h->torque_Nm, &h->with_Nm);
     }
-    if (f) fclose(f);
-    return h;
+    fclose(f);
+    return HCI_OK;
 }
 
 /* Whether a recording tells it: by voltages or currents of the phases, since i_d and i_q, v_d and v_q are
@@ -145,10 +148,11 @@ hci_status cli_tune_emit(cli_tuning *t, hci_note *note)
         {"emit", currents, "--name", name, "--frame", "dq", "--machine", machine, "-o", folder}, 10};
     if (!cli_tune_knows_zero(t)) cli_tune_add_option(&c, "angle-of-logs", NULL);
     if (cli_tune_offset(t)) cli_tune_add_option(&c, "angle-offset", cli_tune_offset(t));
-    const hci_status status = cli_tune_run(t, t->commands.emit, &c, note);
+    table_header header;
+    hci_status status = cli_tune_run(t, t->commands.emit, &c, note);
+    t->is_emitted = !status;
+    if (!status) status = read_header(folder, name, &header, note);
     if (status) return status;
-    t->is_emitted = true;
-    const table_header header = read_header(folder, name);
     t->tuning.table_Nm = header.with_Nm;
     if (t->solution.expected.state == HCI_RIPPLE_KNOWN)
         hci_expected_ripple_add_table(&t->solution.expected, header.own_Nm, t->mean_Nm);

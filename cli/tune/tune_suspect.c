@@ -2,6 +2,7 @@
 #include "cli/tune/tune_suspect.h"
 
 #include <dirent.h>
+#include <errno.h>
 #include <math.h>
 #include <string.h>
 
@@ -22,6 +23,7 @@ hci_status cli_tune_claim_folder(const char *folder, hci_note *note)
 {
     hci_status status = HCI_OK;
     DIR *open = opendir(folder);
+    if (!open && errno == ENOMEM) return hci_note_memory(note, folder, "looking into it");
     if (!open) return HCI_OK; /* new; what else it is, the first file that is written tells */
     for (struct dirent *at; !status && (at = readdir(open)) != NULL;)
         if (!is_own(at->d_name))

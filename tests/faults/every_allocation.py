@@ -25,7 +25,16 @@ def files_below(folder):
     return sorted(os.path.relpath(path, folder) for path in paths if not path.endswith(".sqlite"))
 
 
+def remove(result):
+    """A folder, or the one file of `predict`."""
+    if os.path.isfile(result):
+        os.remove(result)
+    shutil.rmtree(result, ignore_errors=True)
+
+
 def is_same(folder, other):
+    if os.path.isfile(folder):
+        return os.path.isfile(other) and filecmp.cmp(folder, other, shallow=False)
     names = files_below(folder)
     return names == files_below(other) and filecmp.cmpfiles(folder, other, names, shallow=False)[1:] == ([], [])
 
@@ -37,7 +46,7 @@ class Trial:
     def run(self, at, goes_on=False):
         """Exit code and standard error with allocation number `at` failing, of 0 none."""
         if not goes_on:
-            shutil.rmtree(self.folder, ignore_errors=True)
+            remove(self.folder)
         environment = dict(os.environ, LD_PRELOAD=self.library, FAIL_AT=str(at), OPENBLAS_NUM_THREADS="1", FAIL_COUNT="2")
         ended = subprocess.run(
             self.command + ["-q", "-o", self.folder], env=environment, stdin=subprocess.DEVNULL, capture_output=True

@@ -22,6 +22,13 @@ scenario=$source_dir/data/scenarios/02
 tries 7 solve "$source_dir/data/machine_a" --target "$scenario/target.csv" --harmonics "$scenario/harmonics.csv"
 tries 97 solve "$source_dir/data/machine_a" --target "$scenario/target.csv" --harmonics "$scenario/harmonics.csv" \
     --limit-current 20
+# The digest of a machine with effects.csv, and names of columns beside a log, were left out without a word.
+tries 1:80 solve "$source_dir/data/machine_c_saturated" --target "$scenario/target.csv"
+mkdir "$work/log"
+"$hci_solve" simulate "$source_dir/data/machine_a" "$source_dir/data/drive/driven.csv" -q -o "$work/driven" || fail "simulate"
+sed 's/torque_Nm/brake/' "$work/driven/trajectory.csv" >"$work/log/trajectory.csv"
+printf 'name,column\ntorque_Nm,brake\n' >"$work/log/columns.csv"
+tries 1 predict "$source_dir/data/machine_a" "$work/log/trajectory.csv"
 tries 2400 batch "$source_dir/data/fleet/motors.csv" --command solve -j 1
 tries 3:45 batch "$source_dir/data/fleet/motors.csv" --command solve -j 1
 tries 900 sweep "$source_dir/data/machine_a" --map --torques 1,2 --speeds 0 --limit-current 20 -j 1

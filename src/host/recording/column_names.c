@@ -1,7 +1,10 @@
+#define _POSIX_C_SOURCE 200809L
+
 #include "hci/host/recording/column_names.h"
 
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "hci/host/base/number.h"
 #include "hci/host/base/spelling.h"
@@ -251,9 +254,8 @@ hci_status hci_column_names_beside(hci_column_names *names, const char *file, hc
     if (path == NULL) return hci_note_memory(note, NULL, "names of columns");
     memcpy(path, file, folder);
     memcpy(path + folder, FILE_NAME, sizeof FILE_NAME);
-    FILE *there = fopen(path, "rb");
-    if (there != NULL) fclose(there);
-    const hci_status status = there != NULL ? hci_column_names_read(names, path, note) : HCI_OK;
+    const bool is_there = access(path, F_OK) == 0;
+    const hci_status status = is_there ? hci_column_names_read(names, path, note) : HCI_OK;
     hci_memory_free(path);
     return status;
 }
