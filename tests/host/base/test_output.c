@@ -356,6 +356,7 @@ static void test_a_journal_that_is_no_plain_file_is_left(void)
         TEST_ASSERT_EQUAL(0, kind ? symlink("/dev/zero", journal) : mkfifo(journal, 0666));
         alarm(5);
         hci_output_finish_interrupted(files_root);
+        TEST_ASSERT_EQUAL(0, access(files_path(".hci-journal"), F_OK));
         hci_output *output = open_set(files_root);
         start(output, "a.csv", "new a\n");
         start(output, "b.csv", "new b\n");

@@ -281,6 +281,21 @@ static void test_phases(void)
     TEST_ASSERT_TRUE(isnan(value_of("current_sum", "")));
 }
 
+/* Phase currents beside i_d and i_q, which may be rms; the sign of both is another matter. */
+static void test_phase_currents_beside_i_d_and_i_q(void)
+{
+    check_interpretation as = hci_check_as_declared();
+    record_load();
+    TEST_ASSERT_TRUE(isnan(value_of("phase_ratio", "")));
+    data.run[0].has_dq = true;
+    data.run[0].phase_ratio = 1.1;
+    EXPECT({"phase_ratio", "", 1.1}, {"phase_ratio", "current_dq_rms", 1.1 / SQRT2},
+           {"phase_ratio", "current_sign", 1.1});
+    as.dq = SQRT2;
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.1 / SQRT2,
+                              hci_check_relation_value(&data, relation_of("phase_ratio"), &as).found);
+}
+
 /* A mechanical turn with cogging torque, lcm(24, 8) = 24, and with magnets and teeth that are not alike, 8
  * and 24; under load it is not the machine's alone. */
 static int pole_pairs_of_ripple(double i_q)
@@ -394,6 +409,7 @@ int main(void)
     RUN_TEST(test_torque);
     RUN_TEST(test_cogging_torque_of_the_recordings);
     RUN_TEST(test_phases);
+    RUN_TEST(test_phase_currents_beside_i_d_and_i_q);
     RUN_TEST(test_pole_pairs_by_the_ripple_without_load);
     RUN_TEST(test_a_correct_motor_meets_every_relation);
     RUN_TEST(test_what_can_be_checked_does_not_depend_on_the_interpretation);

@@ -219,6 +219,25 @@ static void test_memory_runs_out_everywhere(void)
     TEST_ASSERT_TRUE(allowed > 20);
 }
 
+/* A shaft that stands, then turns: what is read so far is released whichever allocation fails. */
+static void test_one_allocation_fails(void)
+{
+    const hci_run_options options = reading();
+    for (int k = 0; k < ROWS / 3; ++k)
+        number[1][k] = 0.0;
+    for (long at = 0; at < 200; ++at) {
+        hci_note said = {{0}};
+        hci_run run = {0};
+        hci_memory_fail_once_after(at);
+        const hci_status status = hci_run_read(memory.name, &options, &run, &said);
+        hci_memory_fail_after(-1);
+        TEST_ASSERT_TRUE(status == HCI_OK || status == HCI_ERROR_MEMORY);
+        if (status == HCI_ERROR_MEMORY) text_has("memory", said.text);
+        hci_run_release(&run);
+    }
+    (void)hci_memory_was_short();
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -230,5 +249,6 @@ int main(void)
     RUN_TEST(test_a_list_of_both_kinds);
     RUN_TEST(test_the_samples_of_a_prediction);
     RUN_TEST(test_memory_runs_out_everywhere);
+    RUN_TEST(test_one_allocation_fails);
     return UNITY_END();
 }

@@ -178,8 +178,10 @@ static void style_of(const panel *p, const hci_grid_row *row, char style[16])
     const double value = p->value(p->field->sweep, &row->best);
     while (k > 0 && !(value >= p->level[k] - 1e-12 * fabs(p->level[k])))
         --k;
-    snprintf(style, 16, "%s%d", isfinite(value) ? "heat" : "band", isfinite(value) ? k : 0);
-    if (!isfinite(value)) style[4] = '\0';
+    if (isfinite(value))
+        snprintf(style, 16, "heat%d", k);
+    else
+        snprintf(style, 16, "band");
 }
 
 static void tell_cell(hci_output *out, const panel *p, const hci_grid_point *point, const hci_grid_row *row)

@@ -237,6 +237,8 @@ static void test_what_recordings_tell(void)
     machine.rated_current_A = 2.0;
     machine.dc_link_voltage_V = 48.0;
     machine.resistance_ohm = 0.7;
+    hci_wave emf = {.order = 1.0, .sequence = 1, .sine = 0.3}; /* V·s/rad of a phase */
+    machine.model = (hci_machine){.pole_pairs = 2, .back_emf = &emf, .back_emf_count = 1};
     use[1] = false; /* its noise is not counted, and its current and speed are */
     x = hci_playable_of(&regression, &machine);
     TEST_ASSERT_EQUAL_DOUBLE(21.0, x.temperature_C);
@@ -244,6 +246,7 @@ static void test_what_recordings_tell(void)
     TEST_ASSERT_EQUAL_DOUBLE(2.0, x.most_A);
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 48.0 / sqrt(3.0), x.most_V);
     TEST_ASSERT_EQUAL_DOUBLE(0.7, x.ohm);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.3, x.volts_s);
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 30.0, x.most_rad_per_s);
 }
 
