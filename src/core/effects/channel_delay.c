@@ -19,7 +19,9 @@ typedef struct {
 
 static rotation rotation_by(double angle_rad)
 {
-    return (rotation){sin(angle_rad), cos(angle_rad)};
+    rotation x;
+    hci_sine_cosine(angle_rad, &x.s, &x.c);
+    return x;
 }
 
 /* x_abc turned with the rotor; a zero sequence stays. */

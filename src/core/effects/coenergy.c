@@ -24,8 +24,7 @@ void hci_coenergy_begin(hci_coenergy *w, int pole_pairs, const hci_sample *truth
     w->pole_pairs = pole_pairs;
     w->theta_m_rad = truth->theta_m_rad;
     w->unit_A = unit_A;
-    w->sine = sin(theta);
-    w->cosine = cos(theta);
+    hci_sine_cosine(theta, &w->sine, &w->cosine);
     w->i[0] = (-i.alpha * w->cosine - i.beta * w->sine) / unit_A; /* as hci_park */
     w->i[1] = (i.alpha * w->sine - i.beta * w->cosine) / unit_A;
     fill_powers(w->i[0], w->d);

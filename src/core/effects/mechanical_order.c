@@ -45,10 +45,10 @@ static void torque_of_all(const hci_effect *effect, const hci_machine *machine, 
                           hci_effect_torque *sum, double *by_value)
 {
     hci_turning turn = HCI_TURNING;
-    const double theta_rad = machine->pole_pairs * truth->theta_m_rad;
-    const double s = 2.0 / 3.0 * sin(theta_rad), c = 2.0 / 3.0 * cos(theta_rad);
-    const component q = component_of(machine->pole_pairs, s, c);
-    const component d = component_of(machine->pole_pairs, -c, s);
+    double s, c;
+    hci_sine_cosine(machine->pole_pairs * truth->theta_m_rad, &s, &c);
+    const component q = component_of(machine->pole_pairs, 2.0 / 3.0 * s, 2.0 / 3.0 * c);
+    const component d = component_of(machine->pole_pairs, -2.0 / 3.0 * c, 2.0 / 3.0 * s);
     for (size_t k = 0; k < effect->count; ++k) {
         const hci_effect_term *term = &effect->term[k];
         hci_effect_turn_to(&turn, term->order, machine->pole_pairs, truth->theta_m_rad);

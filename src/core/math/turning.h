@@ -2,7 +2,7 @@
 #ifndef HCI_SRC_CORE_MATH_TURNING_H
 #define HCI_SRC_CORE_MATH_TURNING_H
 
-#include <math.h>
+#include "core/math/sine_cosine.h"
 
 /* sin and cos of k × angle. From one k to the next a rotation that was met before is used again: orders 1, 5,
  * 7, 11, 13 … need three sines and cosines, the others four multiplications. Each rotation adds the rounding
@@ -36,7 +36,8 @@ static inline void hci_turning_to(hci_turning *t, double k, double angle_rad)
         hci_turning_step(t, by == t->step[1].k, k);
         return;
     }
-    const double s = sin(k * angle_rad), c = cos(k * angle_rad);
+    double s, c;
+    hci_sine_cosine(k * angle_rad, &s, &c);
     t->step[t->next].k = by;
     t->step[t->next].s = s * t->c - c * t->s;
     t->step[t->next].c = c * t->c + s * t->s;
