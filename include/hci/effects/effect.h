@@ -314,6 +314,9 @@ struct hci_effect_type {
     /* In place: a reading to the true sample. */
     void (*undo)(const hci_effect *effect, int pole_pairs, hci_sample *x);
 
+    /* Both leave the currents as they are. */
+    bool keeps_currents;
+
     /* The adjoint of `undo`: turns the derivatives of a torque by what `undo` returned (by_angle, by_current,
      * by_change) into those by what it got. before, after: what it got and returned. by_value: out, a
      * derivative by each term's value. */
@@ -394,6 +397,9 @@ hci_sample hci_effects_sense(const hci_effects *effects, int pole_pairs, const h
 
 /* The inverse: the true sample behind a reading. */
 hci_sample hci_effects_undo(const hci_effects *effects, int pole_pairs, const hci_sample *reading);
+
+/* Of the currents alone: the angle stays as it was read where that changes no current. */
+hci_sample hci_effects_undo_currents(const hci_effects *effects, int pole_pairs, const hci_sample *reading);
 
 /* The torque in N·m that a torque sensor without lag reads beside this reading of the others: declared
  * machine, effects in it, friction, offset. by_value: out, may be NULL; the derivative by each term's value,

@@ -211,6 +211,15 @@ hci_sample hci_effects_undo(const hci_effects *effects, int pole_pairs, const hc
     return undo_all(effects, pole_pairs, reading, NULL, &count);
 }
 
+hci_sample hci_effects_undo_currents(const hci_effects *effects, int pole_pairs, const hci_sample *reading)
+{
+    hci_sample x = *reading;
+    for (size_t r = TYPE_COUNT; r-- > 0;)
+        for (size_t k = effects->count; k-- > 0 && TYPES[r]->undo && !TYPES[r]->keeps_currents;)
+            if (effects->effect[k].type == TYPES[r]) TYPES[r]->undo(&effects->effect[k], pole_pairs, &x);
+    return x;
+}
+
 /* What step n got: it was kept, or is what `sense` makes of its result. */
 static undo_step step_back(const hci_effects *effects, int pole_pairs, const undo_step *kept, size_t n,
                            const hci_sample *after)

@@ -80,6 +80,7 @@ const hci_effect_type hci_effect_position_eccentricity = {
     .propose_alike = propose_alike,
     .sense = sense,
     .undo = undo,
+    .keeps_currents = true,
     .undo_adjoint = undo_adjoint,
     .simulate = simulate,
 };

@@ -92,6 +92,7 @@ const hci_effect_type hci_effect_position_harmonics = {
     .propose = propose,
     .sense = sense,
     .undo = undo,
+    .keeps_currents = true,
     .undo_adjoint = undo_adjoint,
     .simulate = simulate,
 };

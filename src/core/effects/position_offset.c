@@ -62,6 +62,7 @@ const hci_effect_type hci_effect_position_offset = {
     .propose_alike = propose_alike,
     .sense = sense,
     .undo = undo,
+    .keeps_currents = true,
     .undo_adjoint = undo_adjoint,
     .simulate = simulate,
 };

@@ -410,13 +410,23 @@ typedef struct {
     const hci_effects *declared;
     const hci_runs *runs;
     const hci_diagnose_options *options;
-    hci_suspect *suspect; /* that is not among the runs, and is tried on what they show; NULL: none */
-    double work;          /* of what the search may take, that counts as done before it begins */
+    hci_dataset *dataset;        /* of these machine, effects and runs; NULL: to be made */
+    hci_suspect *suspect;        /* that is not among the runs, and is tried on what they show; NULL: none */
+    const hci_candidates *start; /* that the search goes on from; NULL: nothing */
+    double work;                 /* of what the search may take, that counts as done before it begins */
 } task;
 
-static hci_status look_at(void *context, const hci_effects *effects, hci_note *note)
+/* What is shown is kept: the search of all runs goes on from there. */
+static hci_status look_at(void *context, const hci_candidates *model, const hci_effects *effects,
+                          hci_note *note)
 {
-    return hci_suspect_ask(context, effects, note);
+    hci_suspect *s = context;
+    hci_candidates shown;
+    const hci_status status = hci_candidates_copy(model, &shown, note);
+    if (status) return status;
+    hci_candidates_release(&s->shown);
+    s->shown = shown;
+    return hci_suspect_ask(s, effects, note);
 }
 
 /* What changes the torque by less than a share of its range is nothing. */
@@ -440,7 +450,8 @@ static hci_attribute_options how_to(const hci_dataset *b, const task *t)
                                    t->options->slip,
                                    t->options->slip_context,
                                    t->suspect ? look_at : NULL,
-                                   t->suspect};
+                                   t->suspect,
+                                   t->start};
 }
 
 /* From what the search found to the verdict. */
@@ -466,6 +477,20 @@ static hci_status propose_points(hci_dataset *b, const task *t, hci_diagnosis *d
     return status ? status : hci_next_points_left_open(&b->regression, t->machine, d, note);
 }
 
+/* Whether nothing is left to be confirmed of a run that is only suspected: the others are not understood, or
+ * what they show in the end makes it agree. */
+static hci_status suspicion_ends(const hci_dataset *b, hci_suspect *suspect, const hci_attribution *a,
+                                 hci_note *note)
+{
+    hci_model model;
+    if (a->unknown || a->ended != HCI_WORK_COMPLETE) return HCI_ERROR_STOPPED;
+    hci_status status = hci_model_make(b->regression.declared, &a->model.candidates, false, &model, note);
+    if (status) return status;
+    status = hci_suspect_ask(suspect, &model.list, note);
+    hci_model_release(&model);
+    return status;
+}
+
 static hci_status diagnose(hci_dataset *b, const task *t, hci_diagnosis *d, hci_note *note)
 {
     const hci_attribute_options how = how_to(b, t);
@@ -473,8 +498,10 @@ static hci_status diagnose(hci_dataset *b, const task *t, hci_diagnosis *d, hci_
     hci_attribution a;
     b->regression.watch = &watch;
     hci_status status = hci_attribute(&b->regression, &how, &a, note);
+    if (t->suspect) t->suspect->work = b->work - t->work;
     if (status) return status;
-    status = judge(b, t, &a, d, note);
+    if (t->suspect) status = suspicion_ends(b, t->suspect, &a, note);
+    if (!status) status = judge(b, t, &a, d, note);
     if (!status && !a.not_searched) status = propose_points(b, t, d, note);
     hci_attribution_release(&a);
     return status;
@@ -528,15 +555,22 @@ static hci_status nothing_measured(const hci_effects *declared, hci_diagnosis *d
     return HCI_NOT_REACHED;
 }
 
+static hci_status diagnose_with(hci_dataset *b, const task *t, hci_diagnosis *diagnosis, hci_note *note)
+{
+    b->work += t->work;
+    const hci_status status = diagnose(b, t, diagnosis, note);
+    if (status) hci_diagnosis_release(diagnosis);
+    return status;
+}
+
 static hci_status diagnose_from(const task *t, hci_diagnosis *diagnosis, hci_note *note)
 {
     hci_dataset b;
+    if (t->dataset) return diagnose_with(t->dataset, t, diagnosis, note);
     hci_status status = hci_dataset_make(t->machine, t->declared, t->runs, &b, note);
     if (status) return status;
-    b.work += t->work;
-    status = diagnose(&b, t, diagnosis, note);
+    status = diagnose_with(&b, t, diagnosis, note);
     hci_dataset_release(&b);
-    if (status) hci_diagnosis_release(diagnosis);
     return status;
 }
 
@@ -555,6 +589,13 @@ static bool any_usable(const hci_runs *runs)
     return false;
 }
 
+static bool are_measured(const hci_runs *runs)
+{
+    for (size_t k = 0; k < runs->count; ++k)
+        if (runs->run[k].torque_source != HCI_TORQUE_MEASURED) return false;
+    return true;
+}
+
 /* Of the runs that tell a torque; friction of free shafts comes first. */
 static hci_status diagnose_measured(const task *t, hci_diagnosis *diagnosis, hci_note *note)
 {
@@ -567,6 +608,7 @@ static hci_status diagnose_measured(const task *t, hci_diagnosis *diagnosis, hci
     }
     if (friction.law.terms > 0) rest.declared = &friction.effects.list;
     rest.runs = &friction.rest;
+    if (!are_measured(t->runs)) rest.dataset = NULL; /* of runs that may be other ones now */
     if (!status) status = diagnose_from(&rest, diagnosis, note);
     if (!status) status = tell(&friction, t->runs, diagnosis, note);
     hci_free_friction_release(&friction);
@@ -612,12 +654,13 @@ static hci_status confirm(const task *t, const hci_diagnosis *d, hci_odd_run *od
                           hci_note *note)
 {
     hci_odd_run again;
-    bool settled = false;
-    hci_status status = HCI_OK;
-    if (*certain) return HCI_OK;
-    if (d->search == HCI_WORK_COMPLETE && d->verdict <= HCI_DIAGNOSIS_AMBIGUOUS)
-        status = hci_odd_run_find(t->machine, &d->effects.list, t->runs, &again, &settled, note);
-    *certain = settled && again.file == odd->file;
+    hci_dataset b;
+    if (*certain || d->search != HCI_WORK_COMPLETE || d->verdict > HCI_DIAGNOSIS_AMBIGUOUS) return HCI_OK;
+    hci_status status = hci_dataset_make(t->machine, &d->effects.list, t->runs, &b, note);
+    if (status) return status;
+    status = hci_odd_run_find(t->machine, &b, t->runs, &again, certain, note);
+    hci_dataset_release(&b);
+    *certain = *certain && again.file == odd->file;
     if (*certain) *odd = again;
     return status;
 }
@@ -630,6 +673,7 @@ static hci_status diagnose_others(const task *t, hci_odd_run *odd, bool *certain
     size_t index = 0;
     task others = *t;
     others.runs = &rest;
+    others.dataset = NULL;
     hci_status status = take_out(t->runs, odd->file, &rest, &index, note);
     if (!status) status = diagnose_all(&others, d, note);
     if (!status) status = confirm(t, d, odd, certain, note);
@@ -642,30 +686,50 @@ static hci_status diagnose_others(const task *t, hci_odd_run *odd, bool *certain
     return status;
 }
 
-/* Where a run is only suspected: as soon as what the others show makes it agree, no more is asked of them. */
-static hci_status suspicion_try(const task *t, hci_odd_run *odd, bool *certain, hci_diagnosis *d,
-                                hci_note *note)
+/* Where a run is only suspected: as soon as what the others show makes it agree, no more is asked of them,
+ * and the search of all of them goes on from there. */
+static hci_status suspicion_try(const task *t, hci_odd_run *odd, hci_diagnosis *d, hci_note *note)
 {
     hci_suspect suspect;
-    task others = *t;
+    bool certain = false;
+    task others = *t, all = *t;
     hci_status status = hci_suspect_make(t->machine, t->declared, t->runs, odd->file, &suspect, note);
     if (status) return status;
     others.suspect = &suspect;
     others.work = (1.0 - SUSPICION) * HCI_MOST_WORK;
-    status = diagnose_others(&others, odd, certain, d, note);
+    status = diagnose_others(&others, odd, &certain, d, note);
+    if (status == HCI_ERROR_STOPPED) status = HCI_OK;
+    if (!suspect.untold) {
+        all.start = &suspect.shown;
+        all.work = suspect.work;
+    }
+    if (!status && !certain) status = diagnose_all(&all, d, note);
     hci_suspect_release(&suspect);
-    return status == HCI_ERROR_STOPPED ? HCI_OK : status;
+    return status;
+}
+
+static hci_status diagnose_any(const task *t, hci_diagnosis *d, hci_note *note)
+{
+    hci_odd_run odd;
+    bool certain = false;
+    hci_status status = hci_odd_run_find(t->machine, t->dataset, t->runs, &odd, &certain, note);
+    if (status) return status;
+    if (!odd.file) return diagnose_all(t, d, note);
+    return certain ? diagnose_others(t, &odd, &certain, d, note) : suspicion_try(t, &odd, d, note);
 }
 
 /* Of all runs, or of all but one that disagrees. */
 static hci_status diagnose_runs(const task *t, hci_diagnosis *d, hci_note *note)
 {
-    hci_odd_run odd;
-    bool certain = false;
-    hci_status status = hci_odd_run_find(t->machine, t->declared, t->runs, &odd, &certain, note);
-    if (!status && odd.file && certain) return diagnose_others(t, &odd, &certain, d, note);
-    if (!status && odd.file) status = suspicion_try(t, &odd, &certain, d, note);
-    return status || certain ? status : diagnose_all(t, d, note);
+    hci_dataset b;
+    task all = *t;
+    if (!hci_odd_run_is_asked(t->runs)) return diagnose_all(t, d, note);
+    hci_status status = hci_dataset_make(t->machine, t->declared, t->runs, &b, note);
+    if (status) return status;
+    all.dataset = &b;
+    status = diagnose_any(&all, d, note);
+    hci_dataset_release(&b);
+    return status;
 }
 
 hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *declared, const hci_runs *runs,
@@ -677,7 +741,7 @@ hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *decl
         fitted += runs->role[k] == HCI_ROLE_FIT;
     if (fitted == 0)
         return hci_note_set(note, HCI_ERROR_INPUT, "no run has the role `fit`; give it to at least one");
-    const task all = {machine, declared, runs, options, NULL, 0.0};
+    const task all = {machine, declared, runs, options, NULL, NULL, NULL, 0.0};
     const hci_status status = diagnose_runs(&all, diagnosis, note);
     if (status) return status;
     origin_fill(diagnosis);

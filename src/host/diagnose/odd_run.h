@@ -9,11 +9,15 @@
 #include "hci/host/diagnose/diagnose.h"
 #include "host/diagnose/fit/dataset.h"
 
-/* Looks for it. certain: all others are at their noise; else the run only stands out, and is to be looked for
- * again with the machine that the others give, and its slip is looked for then. odd->file is NULL where there
- * is none; it belongs to runs. HCI_ERROR_INPUT, _MEMORY. O(samples), and of the run that stands out some
- * hundred times its own. */
-hci_status hci_odd_run_find(const hci_machine_data *machine, const hci_effects *effects, const hci_runs *runs,
+/* Whether there are enough runs for one of them to disagree with the others. */
+bool hci_odd_run_is_asked(const hci_runs *runs);
+
+/* Looks for it among so many. certain: all others are at their noise; else the run only stands out, and is to
+ * be looked for again with the machine that the others give, and its slip is looked for then. odd->file is
+ * NULL where there is none; it belongs to runs. dataset: of these runs and effects; it is left as it was but
+ * for the noise, which is not known then. HCI_ERROR_MEMORY. O(samples of the dataset), and of the run that
+ * stands out some hundred times its own. */
+hci_status hci_odd_run_find(const hci_machine_data *machine, hci_dataset *dataset, const hci_runs *runs,
                             hci_odd_run *odd, bool *certain, hci_note *note);
 
 /* A run that stands out, by itself. Start with {0}; it must not be moved. */
@@ -21,6 +25,9 @@ typedef struct {
     hci_dataset dataset;
     hci_run run;
     hci_role role;
+    hci_candidates shown; /* what the others showed when it was asked last */
+    double work;          /* that this took */
+    bool untold;          /* what they show does not hold in its state */
 } hci_suspect;
 
 /* file: of one of the runs. On failure *suspect is empty. HCI_ERROR_MEMORY. O(samples of the run). */
@@ -28,8 +35,8 @@ hci_status hci_suspect_make(const hci_machine_data *machine, const hci_effects *
                             const char *file, hci_suspect *suspect, hci_note *note);
 
 /* Tries effects on it that the other runs show: HCI_ERROR_STOPPED, without a note, where its error with them
- * is not far above its noise any more, so that it is none that disagrees. HCI_ERROR_MEMORY. O(samples of the
- * run). */
+ * is not far above its noise any more, so that it is none that disagrees, or half as large again as without
+ * them, so that they do not tell its state. HCI_ERROR_MEMORY. O(samples of the run). */
 hci_status hci_suspect_ask(hci_suspect *suspect, const hci_effects *effects, hci_note *note);
 void hci_suspect_release(hci_suspect *suspect);
 

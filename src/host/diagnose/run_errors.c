@@ -216,30 +216,46 @@ void hci_run_errors_total(hci_diagnosis *d)
 }
 
 /* before: [2·samples], the residual without and behind it the one with the correction. */
-static hci_status fill(hci_dataset *b, const hci_runs *runs, size_t parameters, double *before,
-                       hci_diagnosis *d, hci_note *note)
+static hci_status residuals_fill(hci_dataset *b, const hci_effects *effects, size_t parameters,
+                                 double *before, hci_note *note)
 {
     double *after = before + b->samples.count;
     hci_status status = hci_regression_residual(&b->regression, b->regression.declared, before, note);
-    if (!status) status = hci_regression_residual(&b->regression, &d->effects.list, after, note);
+    if (!status) status = hci_regression_residual(&b->regression, effects, after, note);
     if (!status) status = hci_regression_noise_estimate(&b->regression, after, parameters, 0.0, note);
-    if (!status) status = lines_fill(b, before, after, d, note);
+    return status;
+}
+
+/* lines: whether those of the spectrum are wanted. */
+static hci_status fill(hci_dataset *b, const hci_runs *runs, size_t parameters, bool lines, hci_diagnosis *d,
+                       hci_note *note)
+{
+    double *before = hci_memory_new(2 * b->samples.count + 1, sizeof *before);
+    if (!before) return hci_note_memory(note, NULL, "the errors of the recordings");
+    double *after = before + b->samples.count;
+    b->regression.use = b->any;
+    b->regression.raw = true;
+    hci_status status = residuals_fill(b, &d->effects.list, parameters, before, note);
+    if (!status && lines) status = lines_fill(b, before, after, d, note);
     if (!status) status = runs_fill(b, runs, before, after, d, note);
+    b->regression.use = b->fit;
+    b->regression.raw = false;
+    hci_memory_free(before);
     return status;
 }
 
 hci_status hci_run_errors_fill(hci_dataset *b, const hci_runs *runs, size_t parameters, hci_diagnosis *d,
                                hci_note *note)
 {
-    double *before = hci_memory_new(2 * b->samples.count + 1, sizeof *before);
-    if (!before) return hci_note_memory(note, NULL, "the errors of the recordings");
-    b->regression.use = b->any;
-    b->regression.raw = true;
-    const hci_status status = fill(b, runs, parameters, before, d, note);
-    b->regression.use = b->fit;
-    b->regression.raw = false;
-    hci_memory_free(before);
-    if (status) return status;
-    hci_run_errors_total(d);
-    return HCI_OK;
+    const hci_status status = fill(b, runs, parameters, true, d, note);
+    if (!status) hci_run_errors_total(d);
+    return status;
+}
+
+hci_status hci_run_errors_of(hci_dataset *b, const hci_runs *runs, const hci_effects *effects,
+                             hci_diagnosis *d, hci_note *note)
+{
+    memset(d, 0, sizeof *d);
+    d->effects.list = *effects;
+    return fill(b, runs, 0, false, d, note);
 }

@@ -12,6 +12,12 @@
 hci_status hci_run_errors_fill(hci_dataset *dataset, const hci_runs *runs, size_t parameters,
                                hci_diagnosis *diagnosis, hci_note *note);
 
+/* Fills run alone, of all runs before and after effects; the list of effects stays the caller's, and
+ * diagnosis->run is to be freed. The noise of the dataset's regression becomes that of the readings of all
+ * runs. HCI_ERROR_MEMORY. O(samples·terms). */
+hci_status hci_run_errors_of(hci_dataset *dataset, const hci_runs *runs, const hci_effects *effects,
+                             hci_diagnosis *diagnosis, hci_note *note);
+
 /* Fills the totals from the errors of the runs. */
 void hci_run_errors_total(hci_diagnosis *diagnosis);
 

@@ -5,6 +5,7 @@
 
 #include "hci/math/dense.h"
 #include "host/base/memory.h"
+#include "host/numeric/wide.h"
 
 #define REGULAR 1e-12 /* added to a diagonal of 1, so that rounding makes no pivot negative */
 #define ALONE   1e-11 /* the same of I − K, where a group alone tells of an unknown */
@@ -65,7 +66,7 @@ typedef struct {
 } leaving;
 
 /* v ← L⁻¹ D F, all columns at once. */
-static void whiten(const leaving *w)
+HCI_WIDE static void whiten(const leaving *w)
 {
     const size_t n = w->ridge->n, rank = w->group->rank;
     for (size_t i = 0; i < n * rank; ++i)
@@ -82,7 +83,7 @@ static void whiten(const leaving *w)
     }
 }
 
-static void products_fill(const leaving *w)
+HCI_WIDE static void products_fill(const leaving *w)
 {
     const size_t n = w->ridge->n, rank = w->group->rank;
     memset(w->k, 0, rank * rank * sizeof *w->k);

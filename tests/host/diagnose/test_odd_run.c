@@ -232,6 +232,21 @@ static void test_a_suspicion_falls_once_the_others_explain_it(void)
     TEST_ASSERT_EQUAL_INT(HCI_OK, ask(ODD, &brake));
 }
 
+/* What the others show may not hold where one of them is not. */
+static void test_a_suspicion_falls_where_the_others_tell_nothing(void)
+{
+    const hci_effect_type *type = hci_effect_type_find("friction");
+    hci_effect_term viscous = {1, 0.0, 0.01, NAN};
+    const hci_effect friction = {type, &viscous, 1};
+    const hci_effects brake = {&friction, 1};
+    record_all(0.0);
+    swap_b_and_c(&run[ODD]);
+    TEST_ASSERT_EQUAL_STRING("viscous", type->parameter[1].name);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, ask(ODD, &brake));
+    viscous.value = 0.2;
+    TEST_ASSERT_EQUAL_INT(HCI_ERROR_STOPPED, ask(ODD, &brake));
+}
+
 static void test_memory(void)
 {
     hci_status status = HCI_ERROR_MEMORY;
@@ -263,6 +278,7 @@ int main(void)
     RUN_TEST(test_a_sign_that_no_other_run_tells);
     RUN_TEST(test_recordings_that_agree);
     RUN_TEST(test_a_suspicion_falls_once_the_others_explain_it);
+    RUN_TEST(test_a_suspicion_falls_where_the_others_tell_nothing);
     RUN_TEST(test_memory);
     return UNITY_END();
 }

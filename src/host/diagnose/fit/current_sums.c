@@ -20,7 +20,8 @@ double hci_current_sums_rms(const hci_regression *e, const hci_effects *effects)
         if (!(deviation_A > 0.0)) continue;
         for (size_t k = s->first; k < s->first + s->count; ++k) {
             const hci_binned_sample *sample = &e->samples->sample[k];
-            const hci_sample truth = hci_effects_undo(effects, e->machine->pole_pairs, &sample->reading);
+            const hci_sample truth =
+                hci_effects_undo_currents(effects, e->machine->pole_pairs, &sample->reading);
             const double left = hci_current_sum_of(sample, &truth) / deviation_A;
             square += sample->count * left * left;
             count += sample->count;
@@ -37,7 +38,7 @@ hci_current_zeros hci_current_zeros_left(const hci_regression *e, const hci_effe
     const double length_A = hypot(hypot(x->standing_A[0], x->standing_A[1]), x->standing_A[2]);
     hci_current_zeros left = {.deviation_A = ZEROS_DRIFT * length_A};
     if (!x->zeros_read || !(length_A > 0.0) || hci_segment_next(e->samples, s->run, NULL) != s) return left;
-    left.truth = hci_effects_undo(effects, e->machine->pole_pairs, reading);
+    left.truth = hci_effects_undo_currents(effects, e->machine->pole_pairs, reading);
     for (size_t phase = 0; phase < 3; ++phase)
         if (reading->computed_phase != (int)phase + 1) left.phase[left.count++] = phase;
     return left;

@@ -5,8 +5,8 @@
 
 #include "host/diagnose/fit/regression.h"
 
-/* The sum of the readings of one sample, without what sensors add to it. truth: hci_effects_undo of its
- * reading. A. */
+/* The sum of the readings of one sample, without what sensors add to it. truth: hci_effects_undo_currents of
+ * its reading. A. */
 double hci_current_sum_of(const hci_binned_sample *sample, const hci_sample *truth);
 
 /* Root mean square over the runs in use whose sums say something, in units of the noise of a sample; 0: none

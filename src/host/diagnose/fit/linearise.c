@@ -128,7 +128,7 @@ static void sum_row(const filling *f, const hci_binned_sample *sample, double de
                     double *y)
 {
     const hci_sample truth =
-        hci_effects_undo(&f->model->list, f->regression->machine->pole_pairs, &sample->reading);
+        hci_effects_undo_currents(&f->model->list, f->regression->machine->pole_pairs, &sample->reading);
     const double weight = sqrt(sample->count) / deviation_A;
     *y = weight * hci_current_sum_of(sample, &truth);
     for (size_t k = 0; k < f->summed_count; ++k) {

@@ -12,9 +12,17 @@
 #define STEADY       0.05 /* of a direct current, as a share, by which readings of it may vary */
 #define ZEROS        0.05 /* of the largest current, that nobody would have left unnoticed as zeros of sensors */
 #define COMMON       0.02 /* share of the mean square that neighbours have in common, of a current that flows … */
+#define FLOWS        0.5 /* share that so many samples have in common only where one flows */
 #define CHANCE       3.0 /* … beyond what they have by chance, in standard deviations */
 
-enum { LEAST_SAMPLES = 64, LEAST_TURNS = 3, LEAST_PER_RANGE = 4, LEAST_PERIODS = 10, MOST_STEPS = 20000 };
+enum {
+    LEAST_SAMPLES = 64,
+    LEAST_TURNS = 3,
+    LEAST_PER_RANGE = 4,
+    LEAST_PERIODS = 10,
+    MOST_STEPS = 20000,
+    ENOUGH = 4096
+};
 
 /* The smallest step between neighbours that is not rounding. */
 static double angle_step(const hci_run *r)
@@ -103,6 +111,7 @@ static bool is_noise(const hci_run *r, int pole_pairs, const double standing_A[3
         common += i.d * before.d + i.q * before.q;
         square += i.d * i.d + i.q * i.q;
         before = i;
+        if (k % ENOUGH == 0 && common > FLOWS * square) return false;
     }
     return common < (COMMON + CHANCE / sqrt(2.0 * n)) * square;
 }

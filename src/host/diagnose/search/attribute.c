@@ -398,6 +398,15 @@ static hci_status model_find(hci_search *s, hci_attribution *a, hci_note *note)
     return status ? status : hci_search_settle(s, a, note);
 }
 
+/* Goes on from what another search has found. */
+static hci_status start_take(const hci_search *s, hci_attribution *a, hci_note *note)
+{
+    const hci_candidates *start = s->options->start;
+    if (!start || hci_candidates_types_in(start) == 0) return HCI_OK;
+    hci_fitted_model_release(&a->model);
+    return hci_candidates_copy(start, &a->model.candidates, note);
+}
+
 /* no_load: out, [runs], those without a current. */
 static hci_status attribute(hci_search *s, hci_attribution *a, bool *no_load, hci_note *note)
 {
@@ -406,6 +415,7 @@ static hci_status attribute(hci_search *s, hci_attribution *a, bool *no_load, hc
     if (!status && !a->not_searched) status = hci_search_no_load(s, no_load, a, note);
     s->from_no_load = hci_candidates_types_in(&a->model.candidates) > 0;
     if (!status && !a->not_searched) status = slip_judge(s, a, note);
+    if (!status && !a->unknown) status = start_take(s, a, note);
     if (!status && !a->unknown) status = model_find(s, a, note);
     if (!status) status = certain_stays(s, a, no_load, note);
     if (!status && !a->not_searched) status = verdicts(s, a, note);

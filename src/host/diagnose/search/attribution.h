@@ -60,9 +60,13 @@ typedef struct {
     void *stop_context;
     const char *(*slip)(void *context); /* as in hci_diagnose_options; may be NULL */
     void *slip_context;
-    /* At the model of each round: any error ends the search with it; may be NULL. */
-    hci_status (*look)(void *context, const hci_effects *effects, hci_note *note);
+    /* At the model of each round, and the effects that it is: any error ends the search with it; may be
+     * NULL. */
+    hci_status (*look)(void *context, const hci_candidates *model, const hci_effects *effects,
+                       hci_note *note);
     void *look_context;
+    const hci_candidates *start; /* what the search goes on from, in place of what the runs without a current
+                                  * show; NULL, or none of them in: nothing */
 } hci_attribute_options;
 
 #endif

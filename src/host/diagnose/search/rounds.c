@@ -47,7 +47,7 @@ static hci_status model_show(hci_search *s, const hci_candidates *candidates, hc
     if (!s->options->look) return HCI_OK;
     hci_status status = hci_model_make(s->regression->declared, candidates, false, &model, note);
     if (status) return status;
-    status = s->options->look(s->options->look_context, &model.list, note);
+    status = s->options->look(s->options->look_context, candidates, &model.list, note);
     hci_model_release(&model);
     return status;
 }
