@@ -16,7 +16,7 @@ hci_effect_oscillation hci_angle_error_at(const hci_effect *effect, int periods,
 }
 
 /* A step below this leaves its square times E''/2, which is rounding. */
-#define LAST_STEP_RAD 1e-6
+#define LAST_STEP_RAD 1e-7
 
 enum { STEPS_MOST = 12 };
 

@@ -26,6 +26,7 @@
     X(rotor_inertia)                                                                                         \
     X(channel_delay)                                                                                         \
     X(current_filter)                                                                                        \
+    X(position_load)                                                                                         \
     X(position_eccentricity)                                                                                 \
     X(position_harmonics)                                                                                    \
     X(position_offset)                                                                                       \

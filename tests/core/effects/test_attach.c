@@ -95,6 +95,21 @@ static void test_readings_are_the_equations(void)
     }
 }
 
+/* The angle follows the current of the plant. */
+static void test_the_angle_turns_with_the_load(void)
+{
+    double i[3];
+    el_add(&l, "position_load", "per_ampere", 0.0, 0.03);
+    attach(NOTHING);
+    plant.i[0] = 1.5;
+    plant.i[1] = -2.0;
+    hci_plane_to_abc(plant.i, i);
+    for (int k = 0; k < STEPS; ++k) {
+        const double theta = 0.017 * k, q = hci_park(hci_clarke(i), P * theta).q;
+        TEST_ASSERT_DOUBLE_WITHIN(1e-13, theta + 0.03 * q / P, read(HCI_SENSE_ANGLE, theta, theta));
+    }
+}
+
 /* Friction is between the air gap and the torque sensor, each law with the sign of the speed; the plant has
  * the Coulomb part for itself. */
 static void test_friction_is_before_the_torque_sensor(void)
@@ -327,6 +342,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_readings_are_the_equations);
+    RUN_TEST(test_the_angle_turns_with_the_load);
     RUN_TEST(test_friction_is_before_the_torque_sensor);
     RUN_TEST(test_what_turns_the_rotor_is_not_read);
     RUN_TEST(test_without_a_state_the_sensor_sees_no_friction);

@@ -649,6 +649,22 @@ static void test_readings_and_back(void)
     }
 }
 
+/* By the i_q of the true angle, and back; also where i_d makes that angle move the current. */
+static void test_angle_turns_with_the_load(void)
+{
+    uint64_t seed = 23;
+    el_list l = {0};
+    el_add(&l, "position_load", "per_ampere", 0.0, 0.03);
+    for (int j = 0; j < DRAWS; ++j) {
+        const hci_sample truth = el_sample(&seed), reading = hci_effects_sense(&l.list, P, &truth);
+        const hci_dq i = hci_park(hci_clarke(truth.i_abc), P * truth.theta_m_rad);
+        const hci_sample back = hci_effects_undo(&l.list, P, &reading);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-13, truth.theta_m_rad + 0.03 * i.q / P, reading.theta_m_rad);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, truth.theta_m_rad, back.theta_m_rad);
+        TEST_ASSERT_EQUAL_MEMORY(truth.i_abc, back.i_abc, sizeof back.i_abc);
+    }
+}
+
 /* Of a list that ends where its memory ends: for the address sanitizer. */
 static void test_nothing_behind_the_last_effect(void)
 {
@@ -709,6 +725,7 @@ static void test_all_readings_and_back(void)
     uint64_t seed = 12;
     el_list l;
     bench(&l);
+    el_add(&l, "position_load", "per_ampere", 0.0, 0.02);
     el_add(&l, "position_harmonics", "sine", 1.0, 0.02);
     el_add(&l, "position_harmonics", "cosine", 4.0, 0.01);
     el_add(&l, "current_filter", "time_constant", 0.0, 4e-4);
@@ -1053,7 +1070,8 @@ static void test_registry(void)
                                         "position_harmonics",
                                         "torque_gain",
                                         "torque_drift",
-                                        "rotor_inertia"};
+                                        "rotor_inertia",
+                                        "position_load"};
     const size_t count = sizeof NAMES / sizeof *NAMES;
     for (size_t k = 0; k < count; ++k) {
         const hci_effect_type *type = hci_effect_type_find(NAMES[k]);
@@ -1096,6 +1114,7 @@ int main(void)
     RUN_TEST(test_a_phase_without_a_sensor);
     RUN_TEST(test_all_readings_and_back);
     RUN_TEST(test_harmonics_of_a_resolver);
+    RUN_TEST(test_angle_turns_with_the_load);
     RUN_TEST(test_current_filter_of_a_sine);
     RUN_TEST(test_torque_drift_follows_the_time);
     RUN_TEST(test_rotor_inertia_takes_what_accelerates_it);

@@ -190,6 +190,7 @@ static void test_what_each_effect_names(void)
     proposes("current_offset", &s, 3,
              (named[]){{"a", 1, 0.0, 3.0, 0.5}, {"b", 1, 0.0, 3.0, 0.5}, {"c", 1, 0.0, 3.0, 0.5}});
     proposes("position_offset", &s, 1, (named[]){{"angle", 1, 0.0, 1.0, 0.1}});
+    proposes("position_load", &s, 1, (named[]){{"per_ampere", 1, 0.0, 2.0, 0.01}});
     proposes("position_eccentricity", &s, 2,
              (named[]){{"mech_sine", 2, 1.0, 2.0, 0.03}, {"mech_sine", 2, 2.0, 2.0, 0.03}});
     proposes(
@@ -227,6 +228,7 @@ static void test_what_cannot_be_seen(void)
     s.both_directions = true;
     s.current_A = 0.0;
     proposes("iron_drag", &s, 0, NULL);
+    proposes("position_load", &s, 0, NULL);
     s.machine = &one;
     proposes("position_harmonics", &s, 1, (named[]){{"sine", 2, 4.0, 3.0, 0.05}});
 }

@@ -77,6 +77,9 @@ static const signature TABLE[] = {
     {"position_harmonics", "sine", 1.0, 1e-4, SINE, 1, 0, 1, {1}},
     {"position_harmonics", "cosine", 2.0, 1e-5, FIFTH, 1, 0, 3, {2, 4, 8}},
     {"position_harmonics", "sine", 4.0, 1e-6, COGGING, ANY, 0, 3, {4, 8, 16}},
+    {"position_load", "per_ampere", 0.0, 1e-5, SINE, 2, 0, 1, {0}},
+    {"position_load", "per_ampere", 0.0, 1e-6, FIFTH, 2, 0, 2, {0, 6}},
+    {"position_load", "per_ampere", 0.0, 1e-6, COGGING, ANY, 0, 2, {0, 12}},
     {"torque_gain", "gain", 0.0, 0.01, SINE, 1, 0, 1, {0}},
     {"torque_gain", "gain", 0.0, 0.01, COGGING, ANY, 0, 2, {0, 12}},
     {"torque_drift", "rate", 0.0, 0.1, SINE, 0, -1, 0, {0}}, /* a ramp: the time of a turn falls with speed */

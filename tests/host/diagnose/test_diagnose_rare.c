@@ -27,6 +27,49 @@ static double sign_of(double x)
     return x < 0.0 ? -1.0 : 1.0;
 }
 
+/* ---- an angle that turns with the load ---- */
+
+/* A machine with a 5th and a cogging torque, at many loads in both directions; the angle is read too much by
+ * so much an ampere, and L_d − L_q is another one than declared by so much. */
+static void record_twisted(double per_ampere, double saliency_H)
+{
+    static const double CURRENT_A[] = {0.0, 3.0, 9.0, -5.0, 6.0, -8.0, 4.0, -3.0};
+    hci_note note = {{0}};
+    files_write(files_path("back_emf.csv"), "order,amplitude_Nm_per_A,phase_rad\n1,0.2,0\n5,0.01,0.4\n");
+    files_write(files_path("cogging.csv"), "order,amplitude_Nm,phase_rad\n6,0.05,0.3\n");
+    hci_machine_release(&machine);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_machine_read(files_root, &machine, &note), note.text);
+    for (size_t r = 0; r < 8; ++r) {
+        const double iq = CURRENT_A[r], id = saliency_H > 0.0 ? -0.5 * fabs(iq) : 0.0;
+        record(900, &(point){(r % 2 ? -1.0 : 1.0) * (40.0 + 10.0 * (double)r), iq, 0.0, 0.0, 0.0});
+        for (size_t k = 0; k < 900; ++k) {
+            const double theta = P * run[r].theta_m_rad[k];
+            rec_phases(id, iq, theta, run[r].i_A + 3 * k);
+            run[r].torque_Nm[k] = hci_torque_at(&machine.model, theta, run[r].i_A + 3 * k) +
+                                  1.5 * P * saliency_H * id * iq + NOISE_NM * ref_normal(&seed);
+            run[r].theta_m_rad[k] += per_ampere * iq / P;
+        }
+    }
+}
+
+static void test_an_angle_that_turns_with_the_load(void)
+{
+    record_twisted(0.012, 0.0);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("position_load")->verdict);
+    TEST_ASSERT_EQUAL_UINT64(1, count_of(HCI_FINDING_ADDED));
+    is_value(0.012, 0.05, term("position_load", "per_ampere", 0.0));
+}
+
+/* Its mean alone is what a salient rotor makes, which has no ripple. */
+static void test_a_salient_rotor_does_not_turn_the_angle(void)
+{
+    record_twisted(0.0, 3e-4);
+    diagnose(NULL);
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("reluctance")->verdict);
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_REJECTED, found("position_load")->verdict);
+}
+
 /* ---- friction at low speed ---- */
 
 static const double SPEEDS[] = {3.0, 7.0, 12.0, 25.0, 60.0, 150.0};
@@ -504,6 +547,8 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_swings_are_said);
+    RUN_TEST(test_an_angle_that_turns_with_the_load);
+    RUN_TEST(test_a_salient_rotor_does_not_turn_the_angle);
     RUN_TEST(test_stribeck_friction);
     RUN_TEST(test_plain_friction_has_no_excess);
     RUN_TEST(test_drift_of_the_torque_sensor);

@@ -907,7 +907,7 @@ def encoder_windup(rng, folder):
     m = c.m
     c.s.windup = 0.12 / m.p / m.rated["torque"]
     c.bench(loads(m, rng, 9))
-    return c.says(outside=True, may=["position_offset"])
+    return c.says("position_load", values={"position_load per_ampere": [0.12 / m.rated["i"], 0.1]})
 
 
 @kind
@@ -964,7 +964,7 @@ def observer_angle(rng, folder):
         w = pt["rpm"] * TAU / 60
         c.s.angle_offset = -0.08 * pt["i_q"] / m.rated["i"] - 0.06 * math.copysign(1, w) * 20.0 / abs(w)
         c.bench([pt])
-    return c.says(outside=True, may=["position_offset", "channel_delay"])
+    return c.says(outside=True, may=["position_load", "position_offset", "channel_delay"])
 
 
 @kind
