@@ -4,6 +4,7 @@
 
 #include "host/diagnose/fit/model.h"
 #include "host/diagnose/search/brakes.h"
+#include "host/diagnose/search/cancelling.h"
 #include "host/diagnose/search/mirror.h"
 #include "host/machine/torque_constant.h"
 
@@ -172,11 +173,13 @@ hci_status hci_search_keep_believed(hci_search *s, hci_fitted_model *model, hci_
     return status;
 }
 
-/* A type that brakes and would drive, or of the iron's mean that keeps its sign with the load; NULL: none. */
+/* A type that brakes and would drive, or of the iron's mean that keeps its sign with the load, or whose terms
+ * cancel; NULL: none. */
 static hci_status unnatural_find(const hci_search *s, const hci_candidates *candidates,
                                  const hci_effect_type **type, hci_note *note)
 {
-    const hci_status status = hci_brakes_find_driving(s->regression, candidates, type, note);
+    hci_status status = hci_brakes_find_driving(s->regression, candidates, type, note);
+    if (!status && !*type) status = hci_cancelling_find(s->regression, candidates, type, note);
     for (size_t k = 0; k < candidates->count && !status && !*type; ++k)
         if (hci_mirror_is_broken(s->regression, candidates, k)) *type = candidates->candidate[k].type;
     return status;
