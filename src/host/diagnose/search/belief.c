@@ -2,9 +2,9 @@
 
 #include <math.h>
 
+#include "host/diagnose/fit/cancelling.h"
 #include "host/diagnose/fit/model.h"
 #include "host/diagnose/search/brakes.h"
-#include "host/diagnose/search/cancelling.h"
 #include "host/diagnose/search/mirror.h"
 #include "host/machine/torque_constant.h"
 

@@ -4,8 +4,8 @@
  * orders 5 and 7 of the back-EMF of recordings whose i_d has not been varied. What is left of them is small
  * beside what the model gets wrong of each, whatever their errors say, and no machine has two unrelated terms
  * of one size. */
-#ifndef HCI_SRC_HOST_DIAGNOSE_SEARCH_CANCELLING_H
-#define HCI_SRC_HOST_DIAGNOSE_SEARCH_CANCELLING_H
+#ifndef HCI_SRC_HOST_DIAGNOSE_FIT_CANCELLING_H
+#define HCI_SRC_HOST_DIAGNOSE_FIT_CANCELLING_H
 
 #include "host/diagnose/candidates/candidates.h"
 #include "host/diagnose/fit/regression.h"

@@ -1,7 +1,7 @@
 /* Terms that make far less together than one by one are not believed, where the recordings do not show them
  * apart. */
 #define _XOPEN_SOURCE 700
-#include "host/diagnose/search/cancelling.h"
+#include "host/diagnose/fit/cancelling.h"
 
 #include "support/searching.h"
 

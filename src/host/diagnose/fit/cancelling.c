@@ -1,4 +1,4 @@
-#include "host/diagnose/search/cancelling.h"
+#include "host/diagnose/fit/cancelling.h"
 
 #include "host/diagnose/fit/linearise.h"
 #include "host/diagnose/fit/model.h"
