@@ -42,7 +42,7 @@ typedef struct {
     bool has_slip, has_emf, has_cogging; /* check found one; they were measured without load */
     double drives_Nm;       /* mean torque with the motion, without current in one direction; 0: it brakes */
     bool has_sensor_zero;   /* drives_Nm is declared as the zero of the sensor */
-    char slip[480];         /* the first that was found, in words */
+    char slip[1024];        /* what was found first, in words; "" */
     bool emf_is_size_alone; /* has_emf: of a recording whose zero is not that of the others */
     bool has_diagnosis;     /* diagnose had something to do */
     bool has_unsteady;      /* a slow turn sticks and slips, and no other recording is of use */

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "cli/tune/tune_waveforms.h"
 #include "hci/math/harmonic.h"
 
 /* ---- the folder ---- */
@@ -110,14 +111,6 @@ typedef struct {
     double torque_Nm, square_Nm2, samples;
 } way_sum;
 
-/* Any at all was recorded. */
-static bool has_current(const hci_run *r)
-{
-    for (size_t n = 0; n < 3 * r->count; ++n)
-        if (r->i_A[n] != 0.0) return true;
-    return false;
-}
-
 static void add_way(way_sum way[2], const hci_run *r)
 {
     for (size_t n = 0; n < r->count; ++n) {
@@ -142,7 +135,7 @@ cli_tune_torque_way cli_tune_torque_way_of(const cli_tuning *t)
     for (size_t k = 0; k < t->runs.count; ++k) {
         const hci_run *r = &t->runs.run[k];
         if (r->torque_source != HCI_TORQUE_MEASURED || !r->torque_Nm || !r->speed_rad_per_s || !r->time_s ||
-            has_current(r))
+            !cli_tune_has_no_current(t, r))
             continue;
         if (x.run == t->runs.count) x.run = k;
         add_way(way, r);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "host/check/error_place.h"
+#include "host/check/own_findings.h"
 #include "host/check/relations.h"
 #include "host/check/run_zero.h"
 
@@ -75,8 +76,11 @@ static void add_alternatives(const check_posterior *p, hci_check_finding *findin
         if (!is_first_row(k) || strcmp(other, finding->slip) == 0) continue;
         const double alone = probability(p, other, finding->slip, false);
         const double beside = probability(p, other, finding->slip, true);
-        if (alone > 0.1 * finding->probability && beside < 0.5 * alone)
-            finding->alternative[finding->alternatives++] = other;
+        const check_error *error = &HCI_CHECK_ERRORS[k];
+        if (!(alone > 0.1 * finding->probability && beside < 0.5 * alone)) continue;
+        best_with(p, other, &error);
+        finding->alternative_words[finding->alternatives] = error->words;
+        finding->alternative[finding->alternatives++] = other;
     }
 }
 
@@ -270,6 +274,7 @@ void hci_check_conclude(const check_posterior *p, hci_check *check)
         if (is_first_row(k)) add_finding(p, HCI_CHECK_ERRORS[k].name, check);
     add_evidence(p, check);
     add_untold(p, check);
+    hci_check_own_findings(p, check);
     check->verdict = verdict_of(check);
     conclude_zero(p, check);
 }

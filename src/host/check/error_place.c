@@ -109,6 +109,26 @@ static bool may_be_unsigned(const check_data *data)
     return goes_back;
 }
 
+/* Turns of the rotor for one of the angle, of the first recording behind a gear; 0: none. */
+static double gear_of(const check_data *data)
+{
+    for (size_t k = 0; k < data->runs; ++k)
+        if (data->run[k].gear > 0.0) return data->run[k].gear;
+    return 0.0;
+}
+
+static bool is_geared(const check_error *error)
+{
+    return error->field == offsetof(check_interpretation, theta_geared);
+}
+
+/* Where the recordings tell the zero themselves, that is the finding, and says what a third of a turn may be.
+ */
+static bool is_rotated(const check_error *error)
+{
+    return error->where == CHECK_AT_PHASES && error->aspect == CHECK_OF_RUN_ZERO;
+}
+
 static bool is_offset(const check_error *error)
 {
     return error->field == offsetof(check_interpretation, run_zero_free);
@@ -126,6 +146,8 @@ bool hci_check_error_applies(const check_error *error, const check_data *data)
         return error->plus > 0.0 ? is_counted_otherwise(data) : fmod(p, 2.0) == 0.0;
     if (error->where == CHECK_AT_SPEED_SIGN) return may_be_unsigned(data);
     if (is_offset(error)) return hci_check_run_zero(data, &declared).is_known;
+    if (is_geared(error)) return gear_of(data) > 0.0;
+    if (is_rotated(error)) return !hci_check_run_zero(data, &declared).is_known;
     if (error->where == CHECK_AT_PHASE)
         return data->cogging.count > 0 && (is_beyond(&data->emf) || is_beyond(&data->cogging));
     if (error->where == CHECK_AT_EMF_PHASE) return is_beyond(&data->emf);
@@ -233,6 +255,21 @@ static void say_offset(const check_data *data, const check_interpretation *as, h
              degrees > 0.0 ? "-" : "+", fabs(degrees));
 }
 
+/* "… behind a gear of 5: the rotor turns 0.2 times while it turns once", and an electrical angle that is as
+ * well that of a gear whose ratio is the number of pole pairs. */
+static void say_gear(const check_error *error, const check_data *data, hci_check_finding *finding)
+{
+    const double turns = gear_of(data), p = data->value[CHECK_pole_pairs];
+    const size_t used = strlen(finding->words);
+    if (is_geared(error))
+        snprintf(finding->words + used, sizeof finding->words - used,
+                 " of %.4g: the rotor turns %.4g times while it turns once, by %.4g pole pairs",
+                 fmax(turns, 1.0 / turns), turns, p);
+    else
+        snprintf(finding->words + used, sizeof finding->words - used,
+                 ", or of a shaft that a gear turns %.4g times as fast", p);
+}
+
 /* What a current is called that a recording has: i_q or of phase a. */
 static const char *current_of(const check_data *data, const check_place *place)
 {
@@ -261,6 +298,8 @@ static void say_column(const check_error *error, const check_data *data, const c
     if (error->aspect == CHECK_OF_CURRENT_UNIT)
         snprintf(text, size, "in mA: --column '%s_mA=%.60s', and so of each current", current_of(data, place),
                  place->column);
+    if (error->aspect == CHECK_OF_TORQUE_UNIT || error->aspect == CHECK_OF_TIME)
+        snprintf(text, size, "%s: --column '%s=%.60s'", error->should_be, error->should_be, place->column);
     if (error->aspect == CHECK_OF_CURRENT_SIGN)
         snprintf(text, size, "with the opposite sign: --column '%s=-%.60s', and so of each current",
                  current_of(data, place), place->column);
@@ -281,6 +320,7 @@ void hci_check_error_locate(const check_error *error, const check_data *data, co
     memcpy(finding->found, place->text, sizeof finding->found);
     fill(finding->should_be, error->should_be, right_number(error, data, as));
     if (error->aspect == CHECK_OF_CURRENT_SIGN) say_other_motion(data, finding);
+    if (error->where == CHECK_AT_THETA_M) say_gear(error, data, finding);
     if (is_offset(error))
         say_offset(data, as, finding);
     else if (place->unit_line > 0)

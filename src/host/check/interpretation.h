@@ -27,6 +27,9 @@ enum {
     CHECK_EMF_TAKEN_PER_KRPM_LINE_RMS
 };
 
+/* Which two phases stand in each other's columns. */
+enum { CHECK_SWAPPED_BC = 1, CHECK_SWAPPED_AB, CHECK_SWAPPED_CA };
+
 /* Factors are 1 and flags 0 where the files are as they are declared. All fields are doubles, so that a
  * convention error is one field, a factor and a summand (convention_errors.h). */
 typedef struct {
@@ -40,12 +43,13 @@ typedef struct {
     double rated_current, resistance;                      /* factors */
     double slope_electrical;                               /* 1: dL per electrical radian */
     double theta_m_is_electrical, theta_e_is_mechanical;   /* 1: so */
-    double theta_unit;                                     /* rad per what stands in the column */
-    double direction;                                      /* −1: the angle is counted backward */
-    double run_zero_rad;                                   /* θ = angle of the recording + this */
+    double theta_geared; /* 1: the angle is of a shaft that turns faster or slower, as the recordings count */
+    double theta_unit;   /* rad per what stands in the column */
+    double direction;    /* −1: the angle is counted backward */
+    double run_zero_rad; /* θ = angle of the recording + this */
     double run_zero_free; /* 1: that is what the recordings say themselves (run_zero.h) */
-    double swapped;       /* 1: phases b and c of the recordings */
-    double currents_swapped, voltages_swapped; /* 1: those of the currents, of the voltages alone */
+    double swapped;       /* CHECK_SWAPPED_…: phases of the recordings; 0: none */
+    double currents_swapped, voltages_swapped; /* those of the currents, of the voltages alone */
     double current, voltage;                   /* factors */
     double dq;                                 /* factor of i_d, i_q and of v_d, v_q */
     double voltage_is_line;                    /* 1: va, vb, vc hold v_ab, v_bc, v_ca */

@@ -14,7 +14,8 @@ static double power_of_scale(const check_run *r, const check_interpretation *as)
 
 double hci_check_scale_of(const check_run *r, const check_interpretation *as, const check_model *m)
 {
-    return as->theta_unit * as->direction * pow(m->pole_pairs, power_of_scale(r, as));
+    const double gear = as->theta_geared > 0.0 && r->gear > 0.0 ? r->gear : 1.0;
+    return as->theta_unit * as->direction * gear * pow(m->pole_pairs, power_of_scale(r, as));
 }
 
 double hci_check_angle_speed_of(const check_run *r, const check_interpretation *as, const check_model *m)
@@ -61,13 +62,23 @@ bool hci_check_voltages_swapped(const check_interpretation *as)
     return (as->swapped > 0.0) != (as->voltages_swapped > 0.0);
 }
 
+/* By how much swapped phases turn beyond what b and c do: with α = e^{j2π/3}, i_b + α i_a + α² i_c is α times
+ * the conjugate of i_a + α i_b + α² i_c, and i_c + α i_b + α² i_a is α² times it. */
+static double turn_of_swap(double all, double alone)
+{
+    const double which = fmax(all, alone);
+    return which > 0.0 ? (which - CHECK_SWAPPED_BC) * 2.0 * HCI_PI / 3.0 : 0.0;
+}
+
 /* d + jq of means over the frames: x = −(d + jq) e^{jθ}. An angle counted backward exchanges the frames;
  * swapped phases conjugate αβ, and conj(x) e^{−jθ} = conj(x e^{jθ}). */
-static check_vector dq_of(const check_vector way[2], const check_interpretation *as, bool swapped)
+static check_vector dq_of(const check_vector way[2], const check_interpretation *as, bool swapped,
+                          double turn_rad)
 {
     const bool backward = as->direction < 0.0;
     const check_vector x = way[swapped == backward ? CHECK_FORWARD : CHECK_BACKWARD];
-    return hci_check_turned(hci_check_scaled(swapped ? hci_check_conjugate(x) : x, -1.0), -as->run_zero_rad);
+    return hci_check_turned(hci_check_scaled(swapped ? hci_check_conjugate(x) : x, -1.0),
+                            turn_rad - as->run_zero_rad);
 }
 
 check_vector hci_check_current_of(const check_run *r, const check_interpretation *as, const check_model *m)
@@ -75,9 +86,10 @@ check_vector hci_check_current_of(const check_run *r, const check_interpretation
     const check_frame *frame = hci_check_frame_of(r, hci_check_scale_of(r, as, m));
     const check_vector none = {0.0, 0.0};
     if (r->has_dq) return hci_check_scaled(r->dq, as->current * as->dq);
-    return r->has_abc && frame
-               ? hci_check_scaled(dq_of(frame->current, as, hci_check_currents_swapped(as)), as->current)
-               : none;
+    return r->has_abc && frame ? hci_check_scaled(dq_of(frame->current, as, hci_check_currents_swapped(as),
+                                                        turn_of_swap(as->swapped, as->currents_swapped)),
+                                                  as->current)
+                               : none;
 }
 
 static check_vector voltage_of(const check_run *r, const check_interpretation *as, const check_model *m)
@@ -86,7 +98,9 @@ static check_vector voltage_of(const check_run *r, const check_interpretation *a
     check_vector way[2] = {{0.0, 0.0}, {0.0, 0.0}};
     for (int k = CHECK_FORWARD; frame && k <= CHECK_BACKWARD; ++k)
         way[k] = phase_of_line(frame->voltage[k], as);
-    return hci_check_scaled(dq_of(way, as, hci_check_voltages_swapped(as)), as->voltage);
+    return hci_check_scaled(
+        dq_of(way, as, hci_check_voltages_swapped(as), turn_of_swap(as->swapped, as->voltages_swapped)),
+        as->voltage);
 }
 
 /* The drive has turned v_d, v_q with an angle of its own: no convention error of the recorded one is in them.

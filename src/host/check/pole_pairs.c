@@ -19,11 +19,29 @@ static double of_run(const check_run *r)
     return !r->is_electrical && isfinite(of_wave) ? whole(of_wave) : 0.0;
 }
 
+static bool is_of_degrees(double order, double pole_pairs)
+{
+    const double in_degrees = order * 180.0 / HCI_PI;
+    return fabs(in_degrees / pole_pairs - 1.0) < WHOLE || fabs(2.0 * in_degrees / pole_pairs - 1.0) < WHOLE ||
+           fabs(in_degrees - 1.0) < WHOLE;
+}
+
+/* Electrical turns for one of the angle that no number of pole pairs makes: 1 is an electrical angle. */
+static double gear_of(const check_run *r, double pole_pairs)
+{
+    const double order = fabs(isfinite(r->current_order) ? r->current_order : r->voltage_order);
+    if (!isfinite(order) || r->is_electrical || isfinite(r->angle_ratio)) return 0.0;
+    if (whole(order) > 0.0 || fabs(order - 1.0) < WHOLE || is_of_degrees(order, pole_pairs)) return 0.0;
+    return fabs(order / pole_pairs - 1.0) < WHOLE ? 0.0 : order / pole_pairs;
+}
+
 bool hci_check_pole_pairs_count(check_data *data)
 {
     double counted = 0.0;
     for (size_t k = 0; k < data->runs && !(counted > 0.0); ++k)
         counted = of_run(&data->run[k]);
+    for (size_t k = 0; k < data->runs; ++k)
+        data->run[k].gear = gear_of(&data->run[k], data->value[CHECK_pole_pairs]);
     if (!hci_check_pole_pairs_of_ripple(data)) return false;
     data->counted_pole_pairs = counted > 0.0 ? counted : whole(data->pole_pairs_of_ripple);
     return true;

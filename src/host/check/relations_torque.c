@@ -249,6 +249,30 @@ static check_value motion_way(const check_data *data, const check_interpretation
     return count > 0.0 ? hci_check_found(way / count) : HCI_CHECK_NONE;
 }
 
+/* ---- a torque without current */
+
+/* Of the rms about the mean of both directions: less is what the ends of the turns leave of a ripple. */
+#define DRAG_OF_RIPPLE 0.2
+
+/* Torque back less that forward, half: friction brakes a shaft that another machine turns, and the zero of
+ * the sensor is in both alike. 1, and -1 where friction would drive. */
+static check_value drag_way(const check_data *data, const check_interpretation *as, const check_model *m)
+{
+    double torque_Nm[2] = {0.0, 0.0}, square = 0.0, count[2] = {0.0, 0.0};
+    for (size_t k = 0; k < data->runs; ++k) {
+        const check_run *r = &data->run[k];
+        const double speed = hci_check_speed_of(r, as, m), n = (double)r->count;
+        if (!r->has_torque || hci_check_has_current(data, r) || !hci_check_has_speed(r)) continue;
+        torque_Nm[speed < 0.0] += n * r->torque_mean * as->torque;
+        square += n * r->torque_variance * as->torque * as->torque;
+        count[speed < 0.0] += n;
+    }
+    if (!(count[0] > 0.0 && count[1] > 0.0)) return HCI_CHECK_NONE;
+    const double drag_Nm = 0.5 * (torque_Nm[1] / count[1] - torque_Nm[0] / count[0]),
+                 least_Nm = DRAG_OF_RIPPLE * sqrt(square / (count[0] + count[1]));
+    return fabs(drag_Nm) > least_Nm ? hci_check_found(drag_Nm > 0.0 ? 1.0 : -1.0) : HCI_CHECK_NONE;
+}
+
 /* ---- the list */
 
 static const check_relation LIST[] = {
@@ -260,6 +284,9 @@ static const check_relation LIST[] = {
      power_balance, "a recording of voltages, currents, torque and speed", ""},
     {"torque_size", "torque over 3/2 k_e i_q and the reluctance torque", CHECK_FLUX, 1.0,
      CHECK_TORQUE_TOLERANCE, 9.0, torque_size, "a recording of currents, angle and torque", ""},
+    {"drag_way", "torque without current back less that forward, 1 where friction brakes", CHECK_SHARE, 1.0,
+     0.4, 9.0, drag_way, "recordings of torque without current, turned forward and back by another machine",
+     ""},
     {"friction_way", "i_q of a slow turn forward less that back, 1 where friction brakes", CHECK_SHARE, 1.0,
      0.4, 9.0, friction_way, "recordings of currents, slowly turned forward and back, without torque", ""},
     {"motion_way", "sign of i_q that accelerates the shaft and overcomes its friction", CHECK_SHARE, 1.0, 0.4,

@@ -21,7 +21,7 @@ enum {
     HCI_CHECK_MOST_ALTERNATIVES = 8, /* slips that mend the same */
     HCI_CHECK_MOST_UNTOLD = 64,      /* slips that leave no trace */
     HCI_CHECK_TEXT = 128,            /* bytes of a text */
-    HCI_CHECK_WORDS = 192,           /* bytes of the words of a slip */
+    HCI_CHECK_WORDS = 256,           /* bytes of the words of a slip */
     HCI_CHECK_PATH = 512             /* bytes of a path */
 };
 
@@ -55,8 +55,9 @@ typedef struct {
                                   * pairs, swapped phases, a sign, a unit of the angle */
     char words[HCI_CHECK_WORDS]; /* what it means */
     const char *told_by;         /* what would tell it from its alternatives; static */
-    const char *alternative[HCI_CHECK_MOST_ALTERNATIVES]; /* slips that mend the same things */
-    size_t alternatives;                                  /* entries of alternative in use */
+    const char *alternative[HCI_CHECK_MOST_ALTERNATIVES];       /* slips that mend the same things */
+    const char *alternative_words[HCI_CHECK_MOST_ALTERNATIVES]; /* what they mean; static */
+    size_t alternatives;                                        /* entries of alternative in use */
 } hci_check_finding;
 
 /* How a relation stands. */

@@ -10,6 +10,7 @@
 #include "hci/host/csv/csv.h"
 #include "hci/host/machine/machine.h"
 #include "hci/host/recording/run.h"
+#include "host/check/data/odd_channel.h"
 #include "host/check/data/plane_vector.h"
 
 /* Bytes of a text and of a path, as in check.h. */
@@ -122,17 +123,21 @@ typedef struct {
     check_vector power;                    /* mean of voltage × conj(current) */
     check_voltage_terms terms;             /* of v_d, v_q */
     double current_order, voltage_order;   /* order and sequence against the recorded angle; NAN: none */
-    bool current_is_steady;                /* with one sign all the time */
-    double frequency;   /* of the voltages over the recorded time, rad per unit of time; NAN: unknown */
-    int current_way;    /* of the whole file without a torque: 1 where i_q accelerates and brakes against
-                         * friction as    that of a motor does, -1 where it works against the motion, 0 where that
-                         * is not told */
-    double phase_ratio; /* length of the vector of phase currents over that of i_d, i_q; NAN: not both */
-    double current_sum; /* rms of ia + ib + ic over the rms of the currents; NAN: not three columns */
+    double gear; /* turns of the rotor for one of the mechanical angle, by no whole number of electrical turns
+                    in it and the declared pole pairs; 0: it is the rotor's, or nothing tells */
+    bool current_is_steady; /* with one sign all the time */
+    double frequency;       /* of the voltages over the recorded time, rad per unit of time; NAN: unknown */
+    int current_way;        /* of the whole file without a torque: 1 where i_q accelerates and brakes against
+                             * friction as    that of a motor does, -1 where it works against the motion, 0 where
+                             * that        is not told */
+    double phase_ratio;     /* length of the vector of phase currents over that of i_d, i_q; NAN: not both */
+    double current_sum;     /* rms of ia + ib + ic over the rms of the currents; NAN: not three columns */
+    check_odd_channel channel; /* of the currents, which all else here takes as it has to be read */
     double current_balance, voltage_balance; /* largest over smallest alternating rms of the phases */
     int line[CHECK_MOST_LINES], lines;       /* orders per turn with which the torque repeats */
     check_frame frame[CHECK_SCALES + 1];     /* the last: at the order that the recording itself has */
     check_place theta_cell, time_cell, speed_cell, current_cell, voltage_cell, torque_cell;
+    check_place channel_cell; /* of the odd channel */
 } check_run;
 
 /* Of a machine folder and its recordings. run: a recording has as many as it has parts. */

@@ -69,14 +69,36 @@ static double scan(const check_samples *s, const check_run *run, const check_vec
     return order;
 }
 
+/* How far a vector turns by its steps over the angle, which a gear makes no whole number; NAN: not at all. */
+static double slope(const check_samples *s, const check_run *run, const check_vector *x)
+{
+    double turned = 0.0, gone = 0.0;
+    for (size_t k = 1; x && k < s->count; ++k) {
+        const double step = s->theta[k] - s->theta[k - 1];
+        const check_vector turn = hci_check_product(x[k], hci_check_conjugate(x[k - 1]));
+        if ((s->follows && !s->follows[k]) || fabs(step) > 0.5 * run->angle_range) continue;
+        turned += atan2(turn.im, turn.re);
+        gone += step;
+    }
+    const double order = turned / gone;
+    if (!x || !isfinite(order) || fabs(turned) < LEAST_TURN) return NAN;
+    return coherence(s, x, order) > CHECK_COHERENT ? order : (double)NAN;
+}
+
+static double scan_or_slope(const check_samples *s, const check_run *run, const check_vector *x)
+{
+    const double order = scan(s, run, x);
+    return isfinite(order) ? order : slope(s, run, x);
+}
+
 /* A mechanical angle counts the electrical turns in it. */
 static void count_turns(const check_samples *s, check_run *run)
 {
     check_frame *own = &run->frame[CHECK_SCALES];
     run->current_is_steady = isfinite(run->current_order);
     if (run->is_electrical || isfinite(run->voltage_order)) return;
-    if (!run->current_is_steady) run->current_order = scan(s, run, s->current);
-    run->voltage_order = scan(s, run, s->voltage);
+    if (!run->current_is_steady) run->current_order = scan_or_slope(s, run, s->current);
+    run->voltage_order = scan_or_slope(s, run, s->voltage);
     const double order = isfinite(run->current_order) ? run->current_order : run->voltage_order;
     if (!isfinite(order)) return;
     own->scale = fabs(order);

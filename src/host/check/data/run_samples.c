@@ -33,6 +33,10 @@ static void places(const check_samples *s, check_run *run)
     if (!run->has_line_voltage)
         place(s, run->has_dq_voltage ? HCI_RUN_VQ : HCI_RUN_VA, run, &run->voltage_cell);
     place(s, HCI_RUN_TORQUE, run, &run->torque_cell);
+    if (run->channel.state == CHECK_CHANNEL_ODD || run->channel.state == CHECK_CHANNEL_DEAD)
+        place(s, HCI_RUN_IA + (hci_run_column)run->channel.phase, run, &run->channel_cell);
+    if (run->channel.state == CHECK_CHANNELS_TWINS)
+        place(s, HCI_RUN_IA + (hci_run_column)((run->channel.phase + 1) % 3), run, &run->channel_cell);
 }
 
 /* ---- columns */
@@ -111,9 +115,24 @@ static hci_status compare_phases(check_run *run, check_samples *s, hci_note *not
     return status;
 }
 
+/* Of three columns the one that has to be read otherwise, for their sum to be nothing, is read so. */
+static hci_status mend_channel(const check_data *data, check_run *run, check_samples *s)
+{
+    const hci_status status = hci_run_phases_read(&s->columns, HCI_RUN_IA);
+    double **column = &s->columns.value[HCI_RUN_IA];
+    if (status || data->has_neutral || !column[0] || !column[1] || !column[2]) return status;
+    run->channel = hci_check_odd_channel(s->phase, s->count);
+    const int odd = run->channel.phase, a = (odd + 1) % 3, b = (odd + 2) % 3;
+    if (run->channel.state == CHECK_CHANNEL_ODD || run->channel.state == CHECK_CHANNEL_DEAD)
+        for (size_t k = 0; k < s->count; ++k)
+            column[odd][k] = run->channel.state == CHECK_CHANNEL_DEAD ? -(column[a][k] + column[b][k])
+                                                                      : column[odd][k] / run->channel.gain;
+    return HCI_OK;
+}
+
 /* i_d, i_q that were recorded beside v_d, v_q belong together; else phase currents need no angle of the
  * drive. */
-static hci_status read_currents(check_run *run, check_samples *s, hci_note *note)
+static hci_status read_currents(const check_data *data, check_run *run, check_samples *s, hci_note *note)
 {
     const int phases = hci_run_phase_count(&s->columns, HCI_RUN_IA);
     run->has_dq = s->columns.has[HCI_RUN_IQ] && (phases < 2 || run->has_dq_voltage);
@@ -122,9 +141,10 @@ static hci_status read_currents(check_run *run, check_samples *s, hci_note *note
     for (hci_run_column which = HCI_RUN_IA; which <= HCI_RUN_IQ; ++which)
         hci_run_column_leave(&s->columns, which);
     s->phase = (const double *const *)&s->columns.value[HCI_RUN_IA];
-    if (run->has_abc) return read_phases(s, HCI_RUN_IA, &s->current, note);
-    if (!run->has_dq) return HCI_OK;
-    hci_status status = read_column(s, HCI_RUN_IQ, &s->q);
+    hci_status status = run->has_abc ? mend_channel(data, run, s) : HCI_OK;
+    if (run->has_abc && !status) return read_phases(s, HCI_RUN_IA, &s->current, note);
+    if (!run->has_dq || status) return status;
+    status = read_column(s, HCI_RUN_IQ, &s->q);
     if (!status) status = read_column(s, HCI_RUN_ID, &s->d);
     if (status || phases < 2) return status;
     hci_note_add(s->columns.remark, "phase currents beside i_d and i_q: their size is compared, and no more");
@@ -168,19 +188,19 @@ static hci_status read_torque(check_samples *s)
     return read_column(s, HCI_RUN_TORQUE, &s->torque);
 }
 
-hci_status hci_check_samples_read(const hci_csv *csv, double pole_pairs, check_run *run, check_samples *s,
-                                  hci_note *remark, hci_note *note)
+hci_status hci_check_samples_read(const hci_csv *csv, const check_data *data, check_run *run,
+                                  check_samples *s, hci_note *remark, hci_note *note)
 {
     hci_run_column first = HCI_RUN_VA;
     hci_status status = hci_run_columns_open_any(csv, &s->columns, remark, note);
     s->count = s->columns.count;
     find_voltages(run, s, &first);
     if (!status) status = read_angles(run, s);
-    if (!status) turn_angle(csv, pole_pairs, run, s);
+    if (!status) turn_angle(csv, data->value[CHECK_pole_pairs], run, s);
     if (!status) status = read_time(s);
     if (!status) status = read_speed(run, s);
     if (!status) status = read_torque(s);
-    if (!status) status = read_currents(run, s, note);
+    if (!status) status = read_currents(data, run, s, note);
     if (!status) status = read_voltages(run, s, first, note);
     if (status) return status;
     hci_run_column_leave(&s->columns, HCI_RUN_TEMPERATURE);

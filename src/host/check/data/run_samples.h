@@ -27,11 +27,11 @@ typedef struct {
     const double *of_phase[3], *of_volt[3];
 } check_samples;
 
-/* Reads what a check needs of a file, and says in the remark how. pole_pairs: of an angle offset. run: out,
+/* Reads what a check needs of a file, and says in the remark how. data: the machine's. run: out,
  * which columns it has and where they stand. *s starts from {0}; what it leaves is to be released even after
  * a failure. HCI_ERROR_INPUT, HCI_ERROR_MEMORY. */
-hci_status hci_check_samples_read(const hci_csv *csv, double pole_pairs, check_run *run, check_samples *s,
-                                  hci_note *remark, hci_note *note);
+hci_status hci_check_samples_read(const hci_csv *csv, const check_data *data, check_run *run,
+                                  check_samples *s, hci_note *remark, hci_note *note);
 void hci_check_samples_release(check_samples *s);
 
 /* Means over the samples. */

@@ -73,7 +73,7 @@ static hci_status run_take(const hci_csv *csv, check_data *data, check_run *file
                            hci_note *note)
 {
     check_samples s = {0};
-    hci_status status = hci_check_samples_read(csv, data->value[CHECK_pole_pairs], file, &s, remark, note);
+    hci_status status = hci_check_samples_read(csv, data, file, &s, remark, note);
     if (!status && has_computed_torque(&s)) {
         hci_note_add(remark,
                      "the torque is i_q times a number: the drive has computed it, and it is not compared");

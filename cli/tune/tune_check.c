@@ -1,0 +1,311 @@
+/* What check says of the logs, and whether anything can be solved with them. */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/tune/tune_commands.h"
+#include "cli/tune/tune_options.h"
+#include "cli/tune/tune_read.h"
+#include "cli/tune/tune_steps.h"
+#include "cli/tune/tune_suspect.h"
+#include "hci/host/report/write.h"
+#include "hci/math/harmonic.h"
+
+/* ---- what is found ---- */
+
+/* Of a ratio, which units make. */
+#define OF_A_UNIT 0.05
+
+/* What a column of angle, speed or time is in where the change of the angle over time is so many times the
+ * speed: a unit that is not the one that it was read in; "": none that is known. */
+static const char *unit_of_ratio(const cli_tuning *t, const hci_check_evidence *e)
+{
+    const struct {
+        double ratio;
+        const char *words;
+    } UNITS[] = {
+        {360.0, ": 360 is degrees in a column that is read in turns; say --column theta_m_deg=COLUMN"},
+        {30.0 / HCI_PI,
+         ": 30/π is rad/s in a column that is read in rpm; say --column speed_rad_per_s=COLUMN"},
+        {1e-3, ": 0.001 is ms in a column that is read in s; say --column time_ms=COLUMN"},
+        {1e-6, ": a millionth is µs in a column that is read in s; say --column time_us=COLUMN"},
+        {1.0 / (60.0 * t->declared.model.pole_pairs),
+         ": 1/60 over the pole pairs is electrical rpm in a column that is read in turn/s; say --column "
+         "speed_e_rpm=COLUMN"}};
+    if (strcmp(e->name, "angle_speed") != 0) return "";
+    for (size_t k = 0; k < sizeof UNITS / sizeof *UNITS; ++k)
+        if (fabs(e->declared / UNITS[k].ratio - 1.0) < OF_A_UNIT) return UNITS[k].words;
+    return "";
+}
+
+static bool is_of_poles(const char *slip)
+{
+    return strncmp(slip, "pole", 4) == 0;
+}
+
+/* A number that init has made of the figure of a sheet is no figure of a sheet. */
+static bool is_excluded(const cli_tuning *t, const char *slip)
+{
+    static const char *const OF_A_SHEET[] = {"emf_volt_per", "emf_kv", "emf_flux_linkage"};
+    if (!t->is_own) return false;
+    for (size_t k = 0; k < sizeof OF_A_SHEET / sizeof *OF_A_SHEET; ++k)
+        if (strncmp(slip, OF_A_SHEET[k], strlen(OF_A_SHEET[k])) == 0) return true;
+    return strncmp(slip, "emf_taken_per_krpm", strlen("emf_taken_per_krpm")) == 0 &&
+           !t->arguments->given[TUNE_VOLT];
+}
+
+static void append(cli_tuning *t, const char *format, ...)
+{
+    const size_t used = strlen(t->slip);
+    va_list list;
+    va_start(list, format);
+    vsnprintf(t->slip + used, sizeof t->slip - used, format, list);
+    va_end(list);
+}
+
+/* The probability of a finding among those that can be here. */
+static double probability_of(const cli_tuning *t, const hci_check *c, const hci_check_finding *f)
+{
+    double excluded = 0.0;
+    for (size_t k = 0; k < c->findings; ++k)
+        excluded += is_excluded(t, c->finding[k].slip) ? c->finding[k].probability : 0.0;
+    return f->probability / fmax(1.0 - excluded, f->probability);
+}
+
+/* "Most likely the torque is in N·cm (98 %), or else ..., so nothing was solved" */
+static void take_slip(cli_tuning *t, const hci_check_finding *f, double probability)
+{
+    t->has_slip = true;
+    t->slip_is_of_poles = is_of_poles(f->slip);
+    append(t, "Most likely %s (%.3g %%", f->words, 100.0 * probability);
+    for (size_t k = 0; k < f->alternatives; ++k)
+        if (!is_excluded(t, f->alternative[k])) append(t, "; or else %s", f->alternative_words[k]);
+    append(t, "), so nothing was solved");
+}
+
+static void say_finding(cli_tuning *t, const hci_check *c, const hci_check_finding *f)
+{
+    const double probability = probability_of(t, c, f);
+    const bool is_found = probability >= HCI_CHECK_FOUND;
+    hci_tuning_say(&t->tuning, is_found ? HCI_TUNING_READ : HCI_TUNING_UNKNOWN,
+                   "%s: %s (%.3g %%); %s:%zu, %s: found %s, should be %s",
+                   is_found ? "slip" : "possible slip", f->words, 100.0 * probability, f->file, f->line,
+                   f->column, f->found, f->should_be);
+    if (is_found && !t->has_slip) take_slip(t, f, probability);
+}
+
+static void say_evidence(cli_tuning *t, const hci_check_evidence *e)
+{
+    if (e->state != HCI_CHECK_UNMENDED) return;
+    hci_tuning_say(&t->tuning, HCI_TUNING_READ, "  not understood: %s is %.4g, expected %s%.4g%s", e->words,
+                   e->declared, e->at_most ? "at most " : "", e->expected, unit_of_ratio(t, e));
+}
+
+static void say_check(cli_tuning *t, const hci_check *c)
+{
+    hci_tuning_say(&t->tuning, HCI_TUNING_READ, "conventions: %s (%zu relations checked)",
+                   hci_check_verdict_name(c->verdict), c->evidences);
+    for (size_t k = 0; k < c->evidences; ++k)
+        say_evidence(t, &c->evidence[k]);
+    for (size_t k = 0; k < c->findings; ++k)
+        if (!is_excluded(t, c->finding[k].slip)) say_finding(t, c, &c->finding[k]);
+}
+
+/* What nothing can be solved with where it is not understood. */
+static bool is_of_angle(const char *relation)
+{
+    static const char *const NAMES[] = {"emf_angle",   "current_order",   "voltage_order", "angle_ratio",
+                                        "angle_speed", "frequency_speed", "cogging_share"};
+    for (size_t k = 0; k < sizeof NAMES / sizeof *NAMES; ++k)
+        if (strcmp(NAMES[k], relation) == 0) return true;
+    return false;
+}
+
+/* Whether an electrical speed was logged beside a mechanical angle, or a mechanical one beside an electrical.
+ */
+static bool has_speed_to_count(const cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        if (r->speed_rad_per_s && r->speed_window == 0 && r->speed_is_electrical != r->is_electrical)
+            return true;
+    }
+    return false;
+}
+
+/* Whether something in the files counts the pole pairs. The orders of a ripple do not: motors with other
+ * slots and half or twice the poles have them too. */
+static bool counts_pole_pairs(const cli_tuning *t, const hci_check *c)
+{
+    static const char *const NAMES[] = {"current_order", "voltage_order", "angle_ratio", "frequency_speed"};
+    for (size_t k = 0; k < c->evidences; ++k)
+        for (size_t n = 0; n < sizeof NAMES / sizeof *NAMES; ++n)
+            if (strcmp(c->evidence[k].name, NAMES[n]) == 0) return true;
+    for (size_t k = 0; k < c->evidences; ++k)
+        if (strcmp(c->evidence[k].name, "angle_speed") == 0) return has_speed_to_count(t);
+    return false;
+}
+
+static bool has_finding(const cli_tuning *t, const hci_check *c)
+{
+    bool has = c->findings == 0;
+    for (size_t k = 0; k < c->findings; ++k)
+        has = has || !is_excluded(t, c->finding[k].slip);
+    return has;
+}
+
+/* Where it is certain that something is read wrongly, and not what: all that would do. */
+static void judge_ambiguous(cli_tuning *t, const hci_check *c)
+{
+    const char *told_by = NULL;
+    if (t->has_slip || cli_tune_is_typed(t) || c->verdict != HCI_CHECK_AMBIGUOUS ||
+        c->probability_as_declared > 1.0 - HCI_CHECK_FOUND)
+        return;
+    if (!has_finding(t, c)) return;
+    t->has_slip = true;
+    append(t, "Something is read wrongly (%.3g %%)", 100.0 * (1.0 - c->probability_as_declared));
+    for (size_t k = 0; k < c->findings; ++k) {
+        const hci_check_finding *f = &c->finding[k];
+        if (is_excluded(t, f->slip)) continue;
+        append(t, "%s%s (%.2g %%)", told_by ? ", or " : ": ", f->words, 100.0 * probability_of(t, c, f));
+        if (!told_by) told_by = f->told_by;
+    }
+    if (told_by) append(t, "; what would tell: %s", told_by);
+    append(t, "; so nothing was solved");
+}
+
+/* Of measured and calculated torque, or its inverse: beyond it no magnet and no sensor is meant. */
+#define ANOTHER_TORQUE 2.5
+
+/* Which unit of the constant makes such a ratio; "": none that is known. */
+static const char *unit_of_torque(double ratio)
+{
+    if (fabs(ratio * 30.0 / HCI_PI - 1.0) < 2.0 * OF_A_UNIT) return " (as Kv in rad/s per V would)";
+    return fabs(ratio * 1000.0 - 1.0) < 2.0 * OF_A_UNIT ? " (as a constant in mN·m/A would)" : "";
+}
+
+static void judge_torque(cli_tuning *t, const hci_check_evidence *e)
+{
+    if (t->has_slip || e->state == HCI_CHECK_AGREES || strcmp(e->name, "torque_size") != 0) return;
+    if (fabs(log(fabs(e->declared / e->expected))) < log(ANOTHER_TORQUE)) return;
+    t->has_slip = true;
+    snprintf(t->slip, sizeof t->slip,
+             "The torque is %.3g times what the currents make with the constant of the sheet%s: it is of the "
+             "other side of a gear, in another unit, or of another motor, or %s is another number or of "
+             "another unit, so nothing was solved",
+             e->declared / e->expected, unit_of_torque(e->declared / e->expected),
+             t->is_own ? "--kv" : "the back-EMF of the machine");
+}
+
+/* Of a shaft that is taken to turn by itself the current cannot work against the motion. */
+static void judge_current(cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count && !t->has_slip; ++k) {
+        if (t->runs.run[k].current_way >= 0) continue;
+        t->has_slip = true;
+        snprintf(
+            t->slip, sizeof t->slip,
+            "i_q works against the motion in %.120s: i_q has the opposite sign, or angle and speed have, "
+            "or another machine turns the shaft; a table of it could double the ripple, so nothing was "
+            "solved",
+            cli_tune_name_of(t, k));
+    }
+}
+
+/* Friction brakes, so that a torque of the motor at a shaft that is driven is against the motion. In one
+ * direction the zero of the sensor may be it as well. */
+static void judge_torque_way(cli_tuning *t)
+{
+    const cli_tune_torque_way way = cli_tune_torque_way_of(t);
+    t->drives_Nm = way.has_both ? 0.0 : way.drives_Nm;
+    if (t->has_slip || !way.has_both || !(way.drives_Nm > 0.0)) return;
+    t->has_slip = true;
+    snprintf(
+        t->slip, sizeof t->slip,
+        "The torque in %.80s drives the shaft by %.3g N·m in both directions, where friction brakes: its "
+        "sign is the other one, or it is what a drive makes and not what a sensor shows; a table of it "
+        "could double the ripple, so nothing was solved; --column torque=-COLUMN turns the sign of a sensor; "
+        "what a drive makes is left out for its current",
+        cli_tune_name_of(t, way.run), way.drives_Nm);
+}
+
+static void judge_check(cli_tuning *t, const hci_check *c)
+{
+    t->counts_pole_pairs = counts_pole_pairs(t, c);
+    judge_ambiguous(t, c);
+    for (size_t k = 0; k < c->evidences && c->verdict != HCI_CHECK_CONSISTENT; ++k)
+        judge_torque(t, &c->evidence[k]);
+    judge_current(t);
+    judge_torque_way(t);
+    for (size_t k = 0; k < c->evidences && c->verdict == HCI_CHECK_NOT_UNDERSTOOD; ++k)
+        if (c->evidence[k].state == HCI_CHECK_UNMENDED)
+            *(is_of_angle(c->evidence[k].name) ? &t->has_misfit : &t->has_doubt) = true;
+}
+
+/* check has no list of recordings: their first HCI_CHECK_MOST_RUNS are its words. */
+static size_t checked_runs(const cli_tuning *t, const char *run[HCI_CHECK_MOST_RUNS])
+{
+    size_t count = 0;
+    for (; count < t->runs.count && count < HCI_CHECK_MOST_RUNS; ++count)
+        run[count] = t->arguments->given[TUNE_RUNS] ? t->runs.origin[count].path : t->arguments->word[count];
+    return count;
+}
+
+static hci_status run_check(cli_tuning *t, const char *run[HCI_CHECK_MOST_RUNS], hci_check *check,
+                            hci_note *note)
+{
+    hci_run_options reading = t->reading.run;
+    reading.holding = false;
+    const hci_status status = hci_check_files(t->machine, run, checked_runs(t, run), &reading, check, note);
+    return status > HCI_NOT_REACHED ? status : HCI_OK;
+}
+
+void cli_tune_take_offset(cli_tuning *t, double more_rad, const char *why)
+{
+    const double so_far_rad = t->runs.count > 0 ? t->runs.run[0].zero_offset_rad : 0.0;
+    snprintf(t->offset, sizeof t->offset, "%.3f",
+             remainder(so_far_rad + more_rad, 2.0 * HCI_PI) * 180.0 / HCI_PI);
+    t->has_offset = true;
+    hci_tuning_say(&t->tuning, HCI_TUNING_READ, "--angle-offset %s: the electrical zero of the angle, by %s",
+                   t->offset, why);
+}
+
+/* An encoder's zero may lie on an axis as anywhere else. */
+static const char AXIS[] = "run_angle_zero_";
+
+/* A zero that is off, and nothing else, is set right. */
+static bool finds_offset(const hci_check *c)
+{
+    size_t found = 0;
+    for (size_t k = 0; k < c->findings; ++k)
+        found += c->finding[k].probability >= HCI_CHECK_FOUND;
+    const char *slip = found == 1 ? c->finding[0].slip : "";
+    return isfinite(c->zero_rad) &&
+           (strcmp(slip, "run_angle_offset") == 0 || strncmp(slip, AXIS, strlen(AXIS)) == 0);
+}
+
+hci_status cli_tune_check(cli_tuning *t, hci_note *note)
+{
+    static hci_check check;
+    const char *run[HCI_CHECK_MOST_RUNS];
+    char folder[CLI_TUNE_PATH];
+    cli_tune_line c = {{"check", t->machine}, 2};
+    hci_status status = run_check(t, run, &check, note);
+    if (!status && finds_offset(&check)) {
+        cli_tune_take_offset(t, check.zero_rad, "what check finds in the logs");
+        status = cli_tune_read_inputs(t, note);
+        if (!status) status = run_check(t, run, &check, note);
+    }
+    if (status) return status;
+    for (size_t k = 0; k < checked_runs(t, run); ++k)
+        cli_tune_add(&c, run[k]);
+    cli_tune_path(t, "check", folder);
+    cli_tune_add_reading(&c, t);
+    cli_tune_add(&c, "-o");
+    cli_tune_add(&c, folder);
+    cli_tune_note_line(t, &c, true);
+    say_check(t, &check);
+    judge_check(t, &check);
+    return hci_check_write(&check, folder, note);
+}
