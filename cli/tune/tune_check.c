@@ -172,7 +172,7 @@ static void judge_ambiguous(cli_tuning *t, const hci_check *c)
         if (!told_by) told_by = f->told_by;
     }
     if (told_by) append(t, "; what would tell: %s", told_by);
-    append(t, "; so nothing was solved");
+    append(t, ", so nothing was solved");
 }
 
 /* Of measured and calculated torque, or its inverse: beyond it no magnet and no sensor is meant. */
@@ -185,17 +185,22 @@ static const char *unit_of_torque(double ratio)
     return fabs(ratio * 1000.0 - 1.0) < 2.0 * OF_A_UNIT ? " (as a constant in mN·m/A would)" : "";
 }
 
-static void judge_torque(cli_tuning *t, const hci_check_evidence *e)
+static void judge_torque(cli_tuning *t, const hci_check *c, const hci_check_evidence *e)
 {
     if (t->has_slip || e->state == HCI_CHECK_AGREES || strcmp(e->name, "torque_size") != 0) return;
     if (fabs(log(fabs(e->declared / e->expected))) < log(ANOTHER_TORQUE)) return;
     t->has_slip = true;
     snprintf(t->slip, sizeof t->slip,
-             "The torque is %.3g times what the currents make with the constant of the sheet%s: it is of the "
-             "other side of a gear, in another unit, or of another motor, or %s is another number or of "
-             "another unit, so nothing was solved",
+             "The torque is %.3g times what the currents make with the constant of the sheet%s (of the other "
+             "side of a gear, in another unit, or of another motor, or %s is another number or of another "
+             "unit",
              e->declared / e->expected, unit_of_torque(e->declared / e->expected),
              t->is_own ? "--kv" : "the back-EMF of the machine");
+    for (size_t k = 0; k < c->findings; ++k)
+        if (!is_excluded(t, c->finding[k].slip))
+            append(t, ", or %s, by %.2g %%", c->finding[k].words,
+                   100.0 * probability_of(t, c, &c->finding[k]));
+    append(t, "), so nothing was solved");
 }
 
 /* Of a shaft that is taken to turn by itself the current cannot work against the motion. */
@@ -224,7 +229,8 @@ static void judge_torque_way(cli_tuning *t)
     snprintf(
         t->slip, sizeof t->slip,
         "The torque in %.80s drives the shaft by %.3g N·m in both directions, where friction brakes: its "
-        "sign is the other one, or it is what a drive makes and not what a sensor shows; a table of it "
+        "sign is the other one, or that of the angle, or it is what a drive makes and not what a sensor "
+        "shows; a table of it "
         "could double the ripple, so nothing was solved; --column torque=-COLUMN turns the sign of a sensor; "
         "what a drive makes is left out for its current",
         cli_tune_name_of(t, way.run), way.drives_Nm);
@@ -233,11 +239,11 @@ static void judge_torque_way(cli_tuning *t)
 static void judge_check(cli_tuning *t, const hci_check *c)
 {
     t->counts_pole_pairs = counts_pole_pairs(t, c);
-    judge_ambiguous(t, c);
     for (size_t k = 0; k < c->evidences && c->verdict != HCI_CHECK_CONSISTENT; ++k)
-        judge_torque(t, &c->evidence[k]);
-    judge_current(t);
+        judge_torque(t, c, &c->evidence[k]);
     judge_torque_way(t);
+    judge_ambiguous(t, c);
+    judge_current(t);
     for (size_t k = 0; k < c->evidences && c->verdict == HCI_CHECK_NOT_UNDERSTOOD; ++k)
         if (c->evidence[k].state == HCI_CHECK_UNMENDED)
             *(is_of_angle(c->evidence[k].name) ? &t->has_misfit : &t->has_doubt) = true;

@@ -4,6 +4,7 @@
 #include <dirent.h>
 #include <errno.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "cli/tune/tune_waveforms.h"
@@ -152,6 +153,50 @@ cli_tune_torque_way cli_tune_torque_way_of(const cli_tuning *t)
                                                     : -back_Nm;
     if (x.drives_Nm < OF_RIPPLE * ripple_Nm) x.drives_Nm = 0.0;
     return x;
+}
+
+/* ---- a turn that is not slow ---- */
+
+#define SLOW_rpm   20.0
+#define LEAST_rpm  1.0
+#define COUNTS_rpm 1000.0 /* encoders have hundreds of counts in a turn, or more */
+
+/* Mean size of the speed of a recording of currents alone, in rpm; 0: of another one. */
+static double speed_of_current_rpm(const hci_run *r)
+{
+    double sum = 0.0, current = 0.0;
+    if (r->torque_source != HCI_TORQUE_NONE || r->torque_is_typed || !r->time_s || !r->speed_rad_per_s ||
+        !r->theta_m_rad || r->v_V || r->zero_is_unknown)
+        return 0.0;
+    for (size_t k = 0; k < r->count; ++k) {
+        sum += fabs(r->speed_rad_per_s[k]) / (double)r->count;
+        current += fabs(r->i_A[3 * k]);
+    }
+    return current > 0.0 ? sum * 30.0 / HCI_PI : 0.0;
+}
+
+bool cli_tune_say_fast(const cli_tuning *t, char *text, size_t size)
+{
+    const double p = t->declared.model.pole_pairs;
+    double rpm = 0.0;
+    char degrees[80] = "", electrical[80] = "";
+    for (size_t k = 0; k < t->runs.count; ++k)
+        rpm = fmax(rpm, speed_of_current_rpm(&t->runs.run[k]));
+    if (!(rpm > SLOW_rpm)) return false;
+    if (rpm * HCI_PI / 180.0 < SLOW_rpm && rpm * HCI_PI / 180.0 > LEAST_rpm)
+        snprintf(degrees, sizeof degrees, " in degrees (%.3g rpm; --column theta_m_deg=COLUMN),",
+                 rpm * HCI_PI / 180.0);
+    if (rpm / p < SLOW_rpm)
+        snprintf(electrical, sizeof electrical, " electrical (%.3g rpm; --column theta_e_rad=COLUMN),",
+                 rpm / p);
+    snprintf(
+        text, size,
+        "By its angle the shaft turns at %.3g rpm, and without a torque sensor the current tells cogging "
+        "torque only of a shaft that is turned at %.0f rpm or less, so nothing was solved; if it was, the "
+        "angle is%s%s %sof a shaft behind a gear",
+        rpm, SLOW_rpm, degrees, electrical,
+        rpm > COUNTS_rpm ? "in counts of an encoder (--column theta_m=COLUMN/COUNTS_OF_A_TURN), or " : "or ");
+    return true;
 }
 
 size_t cli_tune_clipped(const cli_tuning *t)

@@ -30,4 +30,8 @@ size_t cli_tune_torque_clipped(const cli_tuning *tune);
 /* Whether no recording has a measured torque but such ones. */
 bool cli_tune_all_torque_clipped(const cli_tuning *tune);
 
+/* Why the current of a shaft that turns fast by its angle tells nothing, and in which unit of the angle it
+ * would have turned slowly; false: none does. */
+bool cli_tune_say_fast(const cli_tuning *tune, char *text, size_t size);
+
 #endif

@@ -799,7 +799,7 @@ static void say_why_not_solved(cli_tuning *t)
         say_jumps(t);
         return;
     }
-    if (t->is_not_followed && !t->has_misfit && (!t->has_slip || t->slip_is_of_poles)) {
+    if (t->is_not_followed && (!t->has_slip || t->slip_is_of_poles)) {
         say_elsewhere(t);
         return;
     }
@@ -807,6 +807,9 @@ static void say_why_not_solved(cli_tuning *t)
         say_inertia(t);
         return;
     }
+    if (!cli_tune_is_blocked(t) && !cli_tune_is_typed(t) &&
+        cli_tune_say_fast(t, r->heading, sizeof r->heading))
+        return;
     snprintf(r->heading, sizeof r->heading, "%s", why_not_solved(t));
     if (column)
         snprintf(r->heading + strlen(r->heading), sizeof r->heading - strlen(r->heading),

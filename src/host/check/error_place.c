@@ -263,8 +263,7 @@ static void say_gear(const check_error *error, const check_data *data, hci_check
     const size_t used = strlen(finding->words);
     if (is_geared(error))
         snprintf(finding->words + used, sizeof finding->words - used,
-                 " of %.4g: the rotor turns %.4g times while it turns once, by %.4g pole pairs",
-                 fmax(turns, 1.0 / turns), turns, p);
+                 " of %.3g: the rotor turns %.3g times while it turns once", fmax(turns, 1.0 / turns), turns);
     else
         snprintf(finding->words + used, sizeof finding->words - used,
                  ", or of a shaft that a gear turns %.4g times as fast", p);

@@ -26,11 +26,22 @@ static bool is_of_degrees(double order, double pole_pairs)
            fabs(in_degrees - 1.0) < WHOLE;
 }
 
+/* Turns for one of the angle by its speed: a whole number, or one over it, that is not of an electrical angle
+ * or speed. */
+static double gear_by_speed(const check_run *r, double pole_pairs)
+{
+    const double ratio = r->angle_rate / r->speed_over_time, gear = fabs(fmax(ratio, 1.0 / ratio));
+    const bool is_known = isfinite(ratio) && ratio > 0.0 && !r->is_electrical && !r->speed_is_electrical;
+    if (!is_known || !(whole(gear) > 0.0) || fabs(gear / pole_pairs - 1.0) < WHOLE) return 0.0;
+    return is_of_degrees(1.0 / gear, 1.0) ? 0.0 : 1.0 / ratio;
+}
+
 /* Electrical turns for one of the angle that no number of pole pairs makes: 1 is an electrical angle. */
 static double gear_of(const check_run *r, double pole_pairs)
 {
     const double order = fabs(isfinite(r->current_order) ? r->current_order : r->voltage_order);
-    if (!isfinite(order) || r->is_electrical || isfinite(r->angle_ratio)) return 0.0;
+    if (!isfinite(order)) return gear_by_speed(r, pole_pairs);
+    if (r->is_electrical || isfinite(r->angle_ratio)) return 0.0;
     if (whole(order) > 0.0 || fabs(order - 1.0) < WHOLE || is_of_degrees(order, pole_pairs)) return 0.0;
     return fabs(order / pole_pairs - 1.0) < WHOLE ? 0.0 : order / pole_pairs;
 }

@@ -341,13 +341,15 @@ static hci_status leave_still_out(rows_task *t, const readings *x)
 #define STANDS_FOR 20.0 /* times as long as an angle stays at one value while the shaft turns */
 
 enum {
-    LEAST_STAND = 50, /* rows */
-    MOST_STANDS = 8   /* more of them are a shaft that is moved in steps, and measured where it stands */
+    LEAST_STAND = 50,  /* rows */
+    MOST_STANDS = 8,   /* more of them are a shaft that is moved in steps, and measured where it stands */
+    MOST_OF_A_TURN = 3 /* without a torque: more of them are a shaft that sticks and slips */
 };
 
 /* The longest stay of an angle that turns; 0: it does not stand, or is moved in steps. */
 static double stay_of_turning(const rows_task *t, const size_t *fresh, size_t count)
 {
+    const size_t most = t->c->ready[HCI_RUN_TORQUE] ? MOST_STANDS : MOST_OF_A_TURN;
     size_t stands = 0, turning = 0, rows = 0;
     for (size_t k = 0; k < count; ++k) {
         const size_t length = length_of(t, fresh, count, k);
@@ -358,7 +360,7 @@ static double stay_of_turning(const rows_task *t, const size_t *fresh, size_t co
     const double longest = fmax(LEAST_STAND, STANDS_FOR * (double)rows / fmax(1.0, (double)turning));
     for (size_t k = 0; k < count; ++k)
         stands += (double)length_of(t, fresh, count, k) > longest;
-    return turning >= LEAST_FRESH && stands > 0 && stands <= MOST_STANDS ? longest : 0.0;
+    return turning >= LEAST_FRESH && stands > 0 && stands <= most ? longest : 0.0;
 }
 
 #define ONE_COUNT                                                                                            \
@@ -396,7 +398,8 @@ static void hold_angle(const rows_task *t, const double *angle, double *held)
     }
 }
 
-/* Friction takes of the torque of a shaft that stands what it must, and no angle tells what it is of. */
+/* Friction takes of the torque of a shaft that stands what it must, and no angle tells what it is of; what
+ * its current answers is as little told. */
 static hci_status leave_standing_out(rows_task *t, const double *angle)
 {
     double *held = hci_memory_new(t->rows + 1, sizeof *held);
@@ -432,7 +435,8 @@ static hci_status leave_all_still_out(rows_task *t)
     for (unsigned which = HCI_RUN_IA; which <= HCI_RUN_IC; ++which)
         if (ready[which]) currents.column[currents.columns++] = ready[which];
     const double *angle = ready[ready[HCI_RUN_THETA_M] ? HCI_RUN_THETA_M : HCI_RUN_THETA_E];
-    if (torque.column[0] && angle) status = leave_standing_out(t, angle);
+    if ((torque.column[0] || ready[HCI_RUN_IQ] || currents.columns > 1) && angle)
+        status = leave_standing_out(t, angle);
     if (status) return status;
     if (torque.column[0]) leave_clipped_out(t, torque.column[0]);
     if (torque.column[0]) status = leave_still_out(t, &torque);
