@@ -781,6 +781,8 @@ static void say_elsewhere(cli_tuning *t)
 {
     const double ratio = t->angle_to_speed, gear = fmax(ratio, 1.0 / ratio);
     char words[96] = "two of them exchanged?";
+    if (ratio > 1000.0)
+        snprintf(words, sizeof words, "counts? --column theta_m=COLUMN/COUNTS_OF_A_TURN, or theta_e");
     if (ratio > 0.0 && gear > 1.5 && fabs(gear - round(gear)) < 0.03 * gear && gear < 1000.0)
         snprintf(words, sizeof words, "one of a shaft behind a gear of %.0f, or an electrical one?",
                  round(gear));

@@ -36,6 +36,28 @@ crawl gear.csv 'x / 5' i
 tuned 1 gear
 check "a table over the angle behind a gear" [ ! -e gear/table ]
 
+# an angle in a unit in which the shaft would have spun, without a speed that tells
+for unit in 'degrees 57.29577951 theta_m_deg=COLUMN' 'counts 1303.797 theta_m=COLUMN/COUNTS_OF_A_TURN' 'electrical 7 theta_e_rad=COLUMN'; do
+    set -- $unit
+    crawl "$1.csv" "x * $2" i
+    cut -d, -f1,2,4 "$1.csv" >fast.csv
+    run 1 tune fast.csv --pole-pairs 7 --kv 100 --slots 12 -o fast
+    says '^not enough in the logs: By its angle the shaft turns at [0-9.e+]* rpm' "column $3"
+    check "a table over $1" [ ! -e fast/table ]
+    rm -rf fast
+done
+crawl third.csv 'x / 3' i
+tuned 1 third
+says '^a convention is broken: Most likely the angle of the recordings is of a shaft behind a gear of 3'
+
+# a shaft that waits before its turn, and at the end of it, is no shaft that sticks
+crawl going.csv x i
+awk -F, -v OFS=, 'NR == 1 { print; next } { time = $1; at = $2; wait = NR == 2 ? 3000 : NR == 6001 ? 400 : 0
+    for (k = 0; k < wait; ++k) printf "%.6f,%s,0,%.5f,0\n", time + late + k / 300, at, 0.2 + 0.002 * (k % 7)
+    late += wait / 300; $1 = time + late; print }' going.csv >waits.csv
+tuned 0 waits
+says 'in 3[34][0-9]* of 15400 rows the angle stays' '^tuned: A ripple of 0.008.* falls to'
+
 crawl clipped.csv x '(i > 0.07 ? 0.07 : i < -0.07 ? -0.07 : i)'
 tuned 1 clipped
 says 'currents in 1 of 1 logs are clipped' 'the crests of the current are all of one value'

@@ -115,6 +115,7 @@ static void add_channel(const check_data *data, hci_check *check)
                                          "the three currents of a machine without neutral, which sum to 0");
         if (r->channel.state == CHECK_CHANNELS_TWINS) {
             say_twins(r, &f);
+            check->findings = 0; /* of currents that are not those of the machine */
         } else {
             say_odd(r, &f);
             say_remedy(r, &f);

@@ -104,10 +104,18 @@ static bool may_join(const check_posterior *p, size_t a, size_t b)
            hci_check_error_applies(&HCI_CHECK_ERRORS[b], p->data);
 }
 
-/* A number that was converted without need: with two further errors it is not looked for. */
+/* Of a seldom unit, less than so probable. */
+#define A_SELDOM_UNIT 0.01
+
+/* A number that was converted without need, a seldom unit, two phases that are not b and c: with two further
+ * errors it is not looked for. */
 static bool is_seldom_third(size_t k)
 {
-    return HCI_CHECK_ERRORS[k].aspect == CHECK_OF_EMF && HCI_CHECK_ERRORS[k].plus >= CHECK_EMF_TAKEN_PER_KRPM;
+    const check_error *e = &HCI_CHECK_ERRORS[k];
+    const bool is_unit = e->aspect == CHECK_OF_TORQUE_UNIT || e->aspect == CHECK_OF_TIME;
+    return (e->aspect == CHECK_OF_EMF && e->plus >= CHECK_EMF_TAKEN_PER_KRPM) ||
+           (is_unit && e->prior < A_SELDOM_UNIT) ||
+           (e->aspect == CHECK_OF_PHASES && e->plus > CHECK_SWAPPED_BC);
 }
 
 /* All that have a and b, and one further. */

@@ -133,14 +133,18 @@ static bool read_clock(hci_cell_reader *r, const char *cell, double *value)
     return true;
 }
 
+#define SAME_UNIT 1e-9 /* of the factor */
+
 /* A number with its unit behind it, "1.001 sec". */
-static bool read_with_unit(const hci_cell_reader *r, const char *cell, double *value)
+static bool read_with_unit(hci_cell_reader *r, size_t record, const char *cell, double *value)
 {
     const hci_unit *unit;
     char mark = 0;
     if (r->unit == NULL || !hci_csv_number_and_unit(cell, value, &mark, &unit)) return false;
     if (unit->dimension != r->unit->dimension || (mark != 0 && mark != r->decimal)) return false;
     *value *= unit->factor / r->unit->factor / r->factor;
+    if (fabs(unit->factor / (r->unit->factor * r->factor) - 1.0) > SAME_UNIT && r->united++ == 0)
+        r->first_united = record;
     return true;
 }
 
@@ -165,8 +169,9 @@ hci_status hci_cell_read(hci_cell_reader *r, size_t record, hci_number_kind *kin
         if (*kind == HCI_NUMBER_FINITE) *kind = HCI_NUMBER_NONE;
         const hci_status status = read_marked(r, record, kind, value, note);
         if (status) return status;
-        if (*kind == HCI_NUMBER_NONE && (read_clock(r, cell, value) || read_with_unit(r, cell, value) ||
-                                         (r->is_order && hci_csv_fraction(cell, value))))
+        if (*kind == HCI_NUMBER_NONE &&
+            (read_clock(r, cell, value) || read_with_unit(r, record, cell, value) ||
+             (r->is_order && hci_csv_fraction(cell, value))))
             *kind = HCI_NUMBER_FINITE;
     }
     if (*kind == HCI_NUMBER_FINITE && !isfinite(*value *= r->factor)) *kind = HCI_NUMBER_NOT_FINITE;

@@ -15,6 +15,8 @@ typedef struct {
     bool is_order;        /* a fraction is a number here */
     char decimal;         /* mark */
     double first_day;     /* of clock times; NAN: none so far */
+    size_t united;        /* cells that have been read with a unit of their own, which is not the column's */
+    size_t first_united;  /* the record of the first of them */
 } hci_cell_reader;
 
 /* name: the canonical one that the column was found by. */

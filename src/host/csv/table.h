@@ -14,6 +14,8 @@ typedef struct {
     size_t line, column;        /* in the file, from 1; from 0 */
     char found[HCI_QUOTE_SIZE]; /* in words or in quotes */
     hci_note error;             /* what is said where the file is refused for it */
+    size_t united;              /* cells of the column that were read by a unit of their own */
+    size_t united_record;       /* the first of them */
 } hci_csv_hole;
 
 /* A column that is what the user says. */

@@ -143,7 +143,7 @@ static void note_hole(hci_cell_reader *r, size_t record, hci_number_kind kind, h
     char quoted[HCI_QUOTE_SIZE];
     const size_t line = hci_csv_record_line(r->csv, record);
     if (first->line != 0 && first->line <= line) return;
-    memset(first, 0, sizeof *first);
+    *first = (hci_csv_hole){.line = 0};
     first->line = line;
     first->column = r->column;
     snprintf(first->found, sizeof first->found, "%s",
@@ -169,6 +169,8 @@ hci_status hci_csv_numbers_or_nan(const hci_csv *csv, const char *column, double
         note_hole(&r, record, kind, first);
         *value = NAN;
     }
+    first->united = r.united;
+    first->united_record = r.first_united;
     return HCI_OK;
 }
 

@@ -48,7 +48,7 @@ static const char STYLE[] =
     "th,td{text-align:right;padding:.2rem .5rem;border-bottom:1px solid var(--line);vertical-align:top}"
     "th{position:sticky;top:0;background:var(--ground);vertical-align:bottom}"
     "th.text,td.text{text-align:left}td.text{white-space:nowrap}"
-    "td.words{white-space:normal;min-width:9rem}"
+    "td data{white-space:nowrap}td.words{white-space:normal;min-width:9rem}"
     "td:first-child,th:first-child{padding-left:0}"
     ".compare{width:100%;margin:1.2rem 0 .4rem;font-size:1.05rem;table-layout:fixed}"
     ".compare th,.compare td{position:static;text-align:left;padding:.35rem .8rem .35rem "

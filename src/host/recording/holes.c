@@ -95,6 +95,18 @@ static void take_column(rows_task *t, hci_run_column which, const hci_csv_hole *
     }
 }
 
+/* "torque_Nm: 3 of 4000 cells have a unit of their own, `0.1 mNm` in line 12, and are read by it". */
+static void say_united(const hci_run_columns *c, hci_run_column which, const hci_csv_hole *hole)
+{
+    char name[HCI_QUOTE_SIZE], cell[HCI_QUOTE_SIZE];
+    if (hole->united == 0) return;
+    hci_note_add(c->remark,
+                 "%s: %zu of %zu cells have a unit of their own, such as %s in line %zu, and are read by it",
+                 hci_quote(hci_csv_name(c->csv, c->at[which]), name), hole->united, hci_csv_rows(c->csv),
+                 hci_quote(hci_csv_cell(c->csv, hole->united_record, c->at[which]), cell),
+                 hci_csv_record_line(c->csv, hole->united_record));
+}
+
 static hci_status read_columns(rows_task *t)
 {
     hci_run_columns *c = t->c;
@@ -107,6 +119,7 @@ static hci_status read_columns(rows_task *t)
         const hci_status status =
             hci_csv_numbers_or_nan(c->csv, hci_run_column_name(which), c->ready[which], &hole, c->note);
         if (status) return status;
+        say_united(c, which, &hole);
         take_column(t, which, &hole);
     }
     for (size_t k = 0; k < t->rows; ++k)

@@ -649,6 +649,23 @@ static void test_saliency_is_no_offset(void)
     }
 }
 
+static void swap(double x[3], int a, int b)
+{
+    const double y = x[a];
+    x[a] = x[b];
+    x[b] = y;
+}
+
+MISTAKE(swap_c_and_a, swap(x->i, 0, 2); swap(x->v, 0, 2))
+MISTAKE(swap_a_and_b, swap(x->i, 0, 1); swap(x->v, 0, 1))
+MISTAKE(swap_clamps_a_and_b, swap(x->i, 0, 1))
+MISTAKE(centinewton, x->torque_Nm *= 100.0)
+MISTAKE(pound_inch, x->torque_Nm *= 8.8507)
+MISTAKE(ounce_inch, x->torque_Nm *= 141.612)
+MISTAKE(kilogram_centimetre, x->torque_Nm *= 10.1972)
+MISTAKE(microseconds, x->time_s *= 1e6)
+MISTAKE(behind_a_gear, x->theta *= 5.0)
+
 static void test_slips_of_recordings(void)
 {
     static const struct {
@@ -670,6 +687,15 @@ static void test_slips_of_recordings(void)
         {"voltage_line", voltages_to_lines, ""},
         {"voltage_sign", voltages_out, ""},
         {"torque_millinewton", millinewton, ""},
+        {"torque_newton_centimetre", centinewton, "N·cm"},
+        {"torque_pound_inch", pound_inch, "lbf·in"},
+        {"torque_ounce_inch", ounce_inch, "ozf·in"},
+        {"torque_kilogram_centimetre", kilogram_centimetre, "kgf·cm"},
+        {"phases_swapped", swap_c_and_a, "a and c"},
+        {"phases_swapped", swap_a_and_b, "a and b"},
+        {"currents_swapped", swap_clamps_a_and_b, "a and b of the currents"},
+        {"angle_geared", behind_a_gear, "a gear of 5: the rotor turns 0.2 times"},
+        {"time_microseconds", microseconds, ""},
         {"speed_electrical", electrical_speed, ""},
         {"speed_rpm_for_rad_per_s", rpm, ""},
         {"time_milliseconds", milliseconds, ""},
@@ -693,6 +719,123 @@ static void test_mechanical_angle_under_electrical_name(void)
     check_runs("time_s,theta_e_rad,speed_rad_per_s,ia_A,ib_A,ic_A,va_V,vb_V,vc_V,torque_Nm", none, true);
     expect_only("theta_mechanical_for_electrical");
     TEST_ASSERT_EQUAL_STRING("theta_m_rad", check.finding[0].should_be);
+}
+
+/* ---- what recordings prove by themselves */
+
+static const char EMF_ALONE[] = "name,value,unit,source\npole_pairs,4,1,\n";
+
+static const char NO_VOLTAGES[] = "time_s,theta_m_rad,speed_rad_per_s,ia_A,ib_A,ic_A,,,,torque_Nm";
+
+MISTAKE(clamp_b_reversed, x->i[1] = -x->i[1])
+MISTAKE(clamps_c_and_a_reversed, x->i[0] = -x->i[0]; x->i[2] = -x->i[2])
+MISTAKE(probe_a_of_ten, x->i[0] *= 10.0)
+MISTAKE(channel_c_dead, x->i[2] = 0.0)
+MISTAKE(channels_alike, x->i[2] = x->i[0])
+
+static void test_a_channel_that_is_not_as_the_others(void)
+{
+    static const struct {
+        mistake *wrong;
+        const char *words, *should_be;
+        size_t findings;
+    } CASES[] = {
+        {clamp_b_reversed, "phase b has the other sign", "--column 'ib=-ib_A'", 1},
+        {clamps_c_and_a_reversed, "phase b has the other sign", "--column 'ib=-ib_A'", 2},
+        {probe_a_of_ten, "phase a reads 10 times", "--column 'ia=ia_A/10'", 1},
+        {channel_c_dead, "phase c reads nothing", "left out", 1},
+        {channels_alike, "phases c and a are the same", "of its own phase", 1},
+    };
+    for (size_t k = 0; k < sizeof CASES / sizeof *CASES; ++k) {
+        write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+        TEST_ASSERT_EQUAL(HCI_NOT_REACHED, check_runs(HEADER, CASES[k].wrong, false));
+        TEST_ASSERT_EQUAL_MESSAGE(CASES[k].findings, check.findings, CASES[k].words);
+        TEST_ASSERT_EQUAL_STRING("current_channel", check.finding[0].slip);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(check.finding[0].words, CASES[k].words), check.finding[0].words);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(check.finding[0].should_be, CASES[k].should_be),
+                                     check.finding[0].should_be);
+        TEST_ASSERT_EQUAL(HCI_CHECK_SLIPS, check.verdict);
+        remove_files();
+    }
+}
+
+/* A sensor that is off by less than half, and noise without a current, are none. */
+MISTAKE(sensor_a_of_a_fifth_more, x->i[0] *= 1.2)
+MISTAKE(the_same_noise, x->i[0] = x->i[1] = x->i[2] = 1e-3 * sin(1e5 * x->time_s))
+
+static void test_a_sensor_is_no_other_channel(void)
+{
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    check_runs(HEADER, sensor_a_of_a_fifth_more, false);
+    TEST_ASSERT_EQUAL(0, check.findings);
+    remove_files();
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    const char *run[2] = {path[paths], path[paths + 1]};
+    write_run("load.csv", HEADER, -2.0, 10.0, none);
+    write_run("back.csv", HEADER, 0.0, 0.0, the_same_noise);
+    TEST_ASSERT_EQUAL(HCI_OK, hci_check_files(files_root, run, 2, &(hci_run_options){0}, &check, &note));
+}
+
+MISTAKE(a_quarter_on, x->theta += 0.5 * REF_PI / 4.0)
+
+/* At the same currents, with voltages and by the torque alone; currents at another angle are no other zero.
+ */
+static void test_a_zero_that_is_another_one(void)
+{
+    for (int k = 0; k < 2; ++k) {
+        const char *header = k > 0 ? HEADER : NO_VOLTAGES, *run[3];
+        write_machine(EMF_ALONE, "amplitude_Nm_per_A", 0.1, 0.0);
+        for (int j = 0; j < 3; ++j) {
+            static const char *const NAME[] = {"first.csv", "second.csv", "third.csv"};
+            run[j] = path[paths];
+            write_run(NAME[j], header, 0.0, 8.0 + j, j == 1 ? a_quarter_on : none);
+        }
+        TEST_ASSERT_EQUAL(HCI_NOT_REACHED,
+                          hci_check_files(files_root, run, 3, &(hci_run_options){0}, &check, &note));
+        TEST_ASSERT_EQUAL(1, check.findings);
+        TEST_ASSERT_EQUAL_STRING("angle_zero_moved", check.finding[0].slip);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(check.finding[0].words, "second.csv is some 90 degrees"),
+                                     check.finding[0].words);
+        remove_files();
+    }
+}
+
+static void test_a_current_at_another_angle_is_no_other_zero(void)
+{
+    static const double ANGLE_RAD[] = {0.0, 0.6, -0.4};
+    const char *run[3];
+    write_machine(EMF_ALONE, "amplitude_Nm_per_A", 0.1, 0.0);
+    for (int j = 0; j < 3; ++j) {
+        static const char *const NAME[] = {"first.csv", "second.csv", "third.csv"};
+        run[j] = path[paths];
+        write_run(NAME[j], NO_VOLTAGES, -10.0 * sin(ANGLE_RAD[j]), 10.0 * cos(ANGLE_RAD[j]), none);
+    }
+    hci_check_files(files_root, run, 3, &(hci_run_options){0}, &check, &note);
+    TEST_ASSERT_EQUAL(0, check.findings);
+}
+
+MISTAKE(dragged, x->torque_Nm += -0.05 + 0.1 * sin(24.0 * x->theta))
+MISTAKE(dragged_back, x->theta = -x->theta; x->speed = -x->speed; x->torque_Nm += 0.05)
+MISTAKE(driven, x->torque_Nm = -x->torque_Nm + 0.05 - 0.1 * sin(24.0 * x->theta))
+MISTAKE(driven_back, x->theta = -x->theta; x->speed = -x->speed; x->torque_Nm += -0.05)
+
+/* Friction tells the sign of the torque from that of the currents. */
+static void test_friction_tells_the_sign_of_the_torque(void)
+{
+    for (int k = 0; k < 2; ++k) {
+        const char *run[3] = {path[paths + 2], path[paths + 3], path[paths + 4]};
+        write_machine(EMF_ALONE, "amplitude_Nm_per_A", 0.1, 0.0);
+        write_run("zero.csv", NO_VOLTAGES, 0.0, 0.0, k > 0 ? driven : dragged);
+        write_run("zero_back.csv", NO_VOLTAGES, 0.0, 0.0, k > 0 ? driven_back : dragged_back);
+        write_run("load.csv", NO_VOLTAGES, 0.0, 10.0, generator);
+        hci_check_files(files_root, run, 3, &(hci_run_options){0}, &check, &note);
+        if (k > 0)
+            expect_only("torque_sign");
+        else
+            for (size_t n = 0; n < check.findings; ++n)
+                TEST_ASSERT_TRUE(strcmp(check.finding[n].slip, "torque_sign") != 0);
+        remove_files();
+    }
 }
 
 /* Phases a and b carry i_d and i_q. */
@@ -865,7 +1008,6 @@ static void test_forward_and_back(void)
 
 /* Interior magnets of which only the back-EMF is declared: half as much torque again, or twice as much, may
  * be that of a reluctance, and is no rms value. */
-static const char EMF_ALONE[] = "name,value,unit,source\npole_pairs,4,1,\n";
 MISTAKE(reluctance, dq(x); x->i[0] *= 4.0; x->torque_Nm *= 1.414)
 
 static void test_reluctance_is_no_unit(void)
@@ -1191,6 +1333,11 @@ int main(void)
     RUN_TEST(test_an_offset_that_is_given);
     RUN_TEST(test_saliency_is_no_offset);
     RUN_TEST(test_slips_of_recordings);
+    RUN_TEST(test_a_channel_that_is_not_as_the_others);
+    RUN_TEST(test_a_sensor_is_no_other_channel);
+    RUN_TEST(test_a_zero_that_is_another_one);
+    RUN_TEST(test_a_current_at_another_angle_is_no_other_zero);
+    RUN_TEST(test_friction_tells_the_sign_of_the_torque);
     RUN_TEST(test_mechanical_angle_under_electrical_name);
     RUN_TEST(test_slips_of_dq_currents);
     RUN_TEST(test_the_log_of_a_drive);

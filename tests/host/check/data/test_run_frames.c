@@ -136,8 +136,12 @@ static void test_orders_that_are_counted(void)
     TEST_ASSERT_EQUAL_DOUBLE(60.0, run.frame[CHECK_SCALES].scale);
     setUp();
     wave(voltage, 61.0, 1.0, 0.0, false);
+    hci_check_run_frames(&data, &s, &run); /* beyond those, and between them, by the slope */
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 61.0, run.voltage_order);
+    setUp();
+    wave(voltage, 1.4, 0.0, 1.0, false);
     hci_check_run_frames(&data, &s, &run);
-    TEST_ASSERT_TRUE(isnan(run.voltage_order));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, -1.4, run.voltage_order);
     setUp();
     run.is_electrical = true; /* an electrical angle counts nothing */
     wave(voltage, 11.0, 1.0, 0.0, false);
