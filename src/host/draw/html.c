@@ -61,6 +61,7 @@ static const char STYLE[] =
     "@media screen and (max-width:36rem){.wide{display:none}.narrow{display:block}h1{font-size:1.6rem}"
     "h2{font-size:1.15rem}.lead{font-size:1.05rem}.compare{font-size:.9rem}.compare th,.compare "
     "td{padding-right:.5rem}"
+    "th,td{padding:.2rem .3rem}td.words{min-width:6.5rem}"
     "main{padding:1rem .8rem 2rem}.kicker{padding-top:.5rem}}"
     "@page{margin:12mm 14mm}"
     "@media print{body{font-size:9.5pt}main{max-width:none;padding:0}.skip{display:none}"
