@@ -24,19 +24,20 @@ double cli_tune_order_of_slots(const cli_tuning *t)
 }
 
 /* The share of the mechanical turn that has samples, in parts of it; 1 of more than one turn without a gap.
- */
-static double share_of_turn(const hci_run *r)
+ * A part is at least twice as wide as samples lie apart. */
+static double share_of_turn(const hci_run *r, double samples_a_turn)
 {
     enum { PARTS = 24 };
     bool is_seen[PARTS] = {false};
+    const size_t parts = (size_t)fmax(1.0, fmin(PARTS, 0.5 * samples_a_turn));
     size_t seen = 0;
     for (size_t k = 0; k < r->count; ++k) {
         const double turn = r->theta_m_rad[k] / (2.0 * HCI_PI);
-        bool *at = &is_seen[(size_t)((turn - floor(turn)) * PARTS) % PARTS];
+        bool *at = &is_seen[(size_t)((turn - floor(turn)) * (double)parts) % parts];
         seen += !*at;
         *at = true;
     }
-    return (double)seen / PARTS;
+    return (double)seen / (double)parts;
 }
 
 cli_tune_cover cli_tune_cover_of(const hci_run *r)
@@ -50,7 +51,7 @@ cli_tune_cover cli_tune_cover_of(const hci_run *r)
         path += fabs(r->theta_m_rad[k] - r->theta_m_rad[k - 1]) / (2.0 * HCI_PI);
     }
     x.turns = (most - least) / (2.0 * HCI_PI);
-    const double share = share_of_turn(r);
+    const double share = share_of_turn(r, (double)r->count / path);
     if (x.turns > share && share < WHOLE) x.turns = share; /* the same part of it again and again */
     if (x.turns * r->pole_pairs < LEAST_ARC || r->torque_source == HCI_TORQUE_NONE) return x;
     x.samples_a_turn = (double)r->count / path;

@@ -217,12 +217,72 @@ static void judge_slots(cli_tuning *t, const order_sum *sum, size_t count)
     if (slots > 0.0 && order > 2.0) t->stranger_order = order;
 }
 
+/* ---- what one speed does not tell from a ripple of the angle ---- */
+
+#define SLOW_Hz   30.0 /* torque sensors and their filters follow what is slower */
+#define ONE_SPEED 1.2  /* of two, that tell nothing that one does not */
+#define MAINS     1e-3 /* of their frequency, so much they are off, */
+
+/* Turns a second on the way that a recording goes; 0: it has no time. cycle: out, half of one over its
+ * length, that a frequency is uncertain by. */
+static double turns_per_s(const hci_run *r, double *cycle_Hz)
+{
+    double path = 0.0;
+    if (!r->time_s || !r->theta_m_rad || r->count < 2) return 0.0;
+    const double time_s = r->time_s[r->count - 1] - r->time_s[0];
+    for (size_t k = 1; k < r->count; ++k)
+        path += fabs(r->theta_m_rad[k] - r->theta_m_rad[k - 1]) / (2.0 * HCI_PI);
+    *cycle_Hz = time_s > 0.0 ? 0.5 / time_s : 0.0;
+    return time_s > 0.0 ? path / time_s : 0.0;
+}
+
+/* A multiple of 50 or 60 Hz that a frequency is; 0: none. */
+static double mains_of(double f_Hz, double cycle_Hz)
+{
+    static const double BASE_Hz[] = {50.0, 60.0};
+    enum { MOST = 3 };
+    for (size_t k = 0; k < 2; ++k)
+        for (int m = 1; m <= MOST; ++m)
+            if (fabs(f_Hz - m * BASE_Hz[k]) < m * BASE_Hz[k] * MAINS + cycle_Hz) return m * BASE_Hz[k];
+    return 0.0;
+}
+
+/* The turns a second of all recordings with a torque sensor; 0: they have several speeds, or no time. */
+static double one_speed(const cli_tuning *t, double *cycle_Hz)
+{
+    double least = HUGE_VAL, most = 0.0;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        if (t->runs.run[k].torque_source != HCI_TORQUE_MEASURED) continue;
+        const double turns = turns_per_s(&t->runs.run[k], cycle_Hz);
+        least = fmin(least, turns);
+        most = fmax(most, turns);
+    }
+    return least > 0.0 && most < ONE_SPEED * least ? most : 0.0;
+}
+
+static void judge_one_speed(cli_tuning *t, const order_sum *sum, size_t count)
+{
+    const double slots = cli_tune_order_of_slots(t), p = t->declared.model.pole_pairs;
+    double cycle_Hz = 0.0, most_Nm = 0.0;
+    const double turns = one_speed(t, &cycle_Hz);
+    for (size_t k = 0; k < count; ++k)
+        most_Nm = fmax(most_Nm, hypot(sum[k].sine_Nm, sum[k].cosine_Nm));
+    for (size_t k = 0; k < count && turns > 0.0; ++k) {
+        const double f_Hz = sum[k].order * p * turns, mains_Hz = mains_of(f_Hz, cycle_Hz);
+        const bool is_of_slots = slots > 0.0 && fabs(remainder(sum[k].order, slots)) < HCI_ORDER_TOLERANCE;
+        if (hypot(sum[k].sine_Nm, sum[k].cosine_Nm) < MUCH * most_Nm) continue;
+        if (mains_Hz > 0.0 && !is_of_slots) t->mains_order = sum[k].order, t->mains_Hz = mains_Hz;
+        if (f_Hz > fmax(SLOW_Hz, t->fast_Hz)) t->fast_Hz = f_Hz;
+    }
+}
+
 static void say_cogging(cli_tuning *t)
 {
     static order_sum sum[MOST_ORDERS];
     const size_t count = sum_cogging(t, sum);
     say_once_a_turn(t, sum, count);
     judge_slots(t, sum, count);
+    judge_one_speed(t, sum, count);
     if (t->cogging.kept == 0) return;
     hci_tuning_say(&t->tuning, HCI_TUNING_FOUND,
                    "cogging torque and what else follows the angle alone, %zu "

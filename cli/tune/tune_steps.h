@@ -61,7 +61,10 @@ typedef struct {
     bool is_not_followed;  /* the angle of a recording does not go where its speed leads */
     double stranger_order; /* the largest of the cogging torque found, where slots and poles make another one
                             * that was not found; 0: none */
-    bool has_doubt;        /* check does not understand something else */
+    double mains_order,
+        mains_Hz;   /* an order found that is a multiple of 50 or 60 Hz at the one speed; 0: none */
+    double fast_Hz; /* the fastest of the larger orders by a torque sensor at one speed; 0: all are slow */
+    bool has_doubt; /* check does not understand something else */
     bool has_alias; /* samples lie too far apart for the order of slots and poles, which shows as another one
                      */
     bool tells_no_order;  /* not even an electrical turn is covered */

@@ -676,6 +676,14 @@ static void append_of_torque(cli_tuning *t)
         append(t, "; orders above %.3g were not looked at, since the samples lie too far apart",
                t->highest_order);
     if (hangs_on_lag(t)) append(t, "; unless the torque sensor reads late, which one speed does not tell");
+    if (t->mains_Hz > 0.0 && t->is_solved)
+        append(t, "; order %.5g is %.0f Hz at this one speed, as hum of the mains is: another speed tells",
+               t->mains_order, t->mains_Hz);
+    else if (t->fast_Hz > 0.0 && t->is_solved && !hangs_on_lag(t))
+        append(t,
+               "; at this one speed the ripple has %.0f Hz, of which a slower torque sensor or filter shows "
+               "less, and late: a slow turn beside it tells",
+               t->fast_Hz);
 }
 
 /* What they do not tell of the machine, and what of them was not used. */
@@ -859,7 +867,8 @@ void cli_tune_conclude(cli_tuning *t)
               !cli_tune_is_short(t) && !(t->once_a_turn_Nm > 0.0) && !is_far_beyond(t) &&
               cli_tune_clipped(t) == 0 && cli_tune_torque_clipped(t) == 0 && !is_never_seen(t) &&
               !misses_torque(t) && t->size == CLI_TUNE_USUAL && !(t->drives_Nm > 0.0) &&
-              !cli_tune_is_unpromised(t);
+              !cli_tune_is_unpromised(t) &&
+              !(t->is_solved && hci_expected_ripple_is_doubtful(&t->solution.expected));
     snprintf(r->verdict, sizeof r->verdict, "%s", verdict_of(t));
     if (t->is_solved)
         set_heading(t);

@@ -91,6 +91,26 @@ run 0 tune wait.csv --pole-pairs 4 --kv 18.38 --slots 12 -o wait
 says "in [34][0-9]* of 12000 rows the angle stays" '  order 6: 0.0(59|6)'
 rm -rf wait
 
+# RAD HUM: a driven shaft again, so many radians of the turn in a sample of 1 ms, and N·m of 50 Hz in its torque
+driven_at() {
+    awk "BEGIN { srand(9); print \"time_s,theta_m_rad,torque_Nm\"; turn = 6.283185307179586
+        for (k = 0; k < 12000; ++k) { x = 0.2 + $1 * k
+            y = 0.06 * sin(24 * x + 0.3) + 0.02 * sin(48 * x) - 0.02 + $2 * sin(turn * k / 20)
+            printf \"%.4f,%.7g,%.7g\\n\", k / 1000, x, y + 0.003 * (rand() + rand() + rand() - 1.5) } }" >hum.csv
+    rm -rf hum
+    run 0 tune hum.csv --pole-pairs 4 --kv 18.38 --slots 12 -o hum
+}
+driven_at 0.001570796326795 0.02 # 15 rpm
+says '^tuned: .*; order 50 is 50 Hz at this one speed, as hum of the mains is: another speed tells'
+driven_at 0.001570796326795 0
+check "hum where there is none" [ "$(grep -c "of the mains\|slower torque sensor" stdout)" = 0 ]
+driven_at 0.0157 0 # 150 rpm
+says '^tuned: .*; at this one speed the ripple has [1-9][0-9]* Hz, of which a slower torque sensor or filter shows less'
+# ten samples a turn, at the same ten angles in each of eighty turns, cover all of it
+awk 'NR == 1 || NR % 40 == 0' hum.csv | awk -F, -v OFS=, 'NR > 1 { $2 = 0.2 + 0.6283185307 * NR } 1' >ten.csv
+run 1 tune ten.csv --pole-pairs 4 --kv 18.38 -o ten
+check "turns that are covered are said not to be" [ "$(grep -c "the logs cover 0" stdout)" = 0 ]
+
 # an electrical speed beside the mechanical angle counts the pole pairs, a mechanical one does not
 awk -F, -v OFS=, 'NR == 1 { $3 = "speed_e_rad_per_s" } NR > 1 { $3 *= 7 } 1' even.csv >counted.csv
 awk -F, -v OFS=, 'NR == 1 { $2 = "theta_e_rad" } NR > 1 { $2 *= 7 } 1' even.csv >counting.csv
