@@ -219,9 +219,10 @@ static void judge_slots(cli_tuning *t, const order_sum *sum, size_t count)
 
 /* ---- what one speed does not tell from a ripple of the angle ---- */
 
-#define SLOW_Hz   30.0 /* torque sensors and their filters follow what is slower */
-#define ONE_SPEED 1.2  /* of two, that tell nothing that one does not */
-#define MAINS     1e-3 /* of their frequency, so much they are off, */
+#define SLOW_Hz       30.0 /* torque sensors and their filters follow what is slower */
+#define ONE_SPEED     1.2  /* of two, that tell nothing that one does not */
+#define LEAST_TOLD_Hz 0.2  /* a shorter log does not tell a frequency from that of the mains */
+#define MAINS         1e-3 /* of their frequency, so much they are off, */
 
 /* Turns a second on the way that a recording goes; 0: it has no time. cycle: out, half of one over its
  * length, that a frequency is uncertain by. */
@@ -241,6 +242,7 @@ static double mains_of(double f_Hz, double cycle_Hz)
 {
     static const double BASE_Hz[] = {50.0, 60.0};
     enum { MOST = 3 };
+    if (cycle_Hz > LEAST_TOLD_Hz) return 0.0;
     for (size_t k = 0; k < 2; ++k)
         for (int m = 1; m <= MOST; ++m)
             if (fabs(f_Hz - m * BASE_Hz[k]) < m * BASE_Hz[k] * MAINS + cycle_Hz) return m * BASE_Hz[k];

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "cli/tune/tune_current.h"
 #include "cli/tune/tune_waveforms.h"
 
 /* Cogging torque, peak to peak, to the rated torque: motors have some percent. */

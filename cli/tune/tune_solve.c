@@ -6,6 +6,7 @@
 #include "cli/terminal/progress.h"
 #include "cli/tune/tune_commands.h"
 #include "cli/tune/tune_cover.h"
+#include "cli/tune/tune_current.h"
 #include "cli/tune/tune_options.h"
 #include "cli/tune/tune_waveforms.h"
 #include "hci/host/base/number.h"

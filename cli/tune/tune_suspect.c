@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/tune/tune_waveforms.h"
+#include "cli/tune/tune_current.h"
 #include "hci/math/harmonic.h"
 
 /* ---- the folder ---- */

@@ -4,7 +4,4 @@
 
 #include "cli/tune/tune_steps.h"
 
-/* None, or what a sensor of current makes of none. */
-bool cli_tune_has_no_current(const cli_tuning *tune, const hci_run *run);
-
 #endif

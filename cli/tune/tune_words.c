@@ -8,6 +8,7 @@
 #include "cli/terminal/say.h"
 #include "cli/terminal/text.h"
 #include "cli/tune/tune_cover.h"
+#include "cli/tune/tune_current.h"
 #include "cli/tune/tune_options.h"
 #include "cli/tune/tune_size.h"
 #include "cli/tune/tune_suspect.h"

@@ -1,0 +1,13 @@
+/* The currents of recordings: whether there is one. Uses tune_steps. */
+#ifndef HCI_CLI_TUNE_CURRENT_H
+#define HCI_CLI_TUNE_CURRENT_H
+
+#include "cli/tune/tune_steps.h"
+
+/* rms of a phase, over the three. */
+double cli_tune_rms_A(const hci_run *run);
+
+/* None, or what a sensor of current makes of none. */
+bool cli_tune_has_no_current(const cli_tuning *tune, const hci_run *run);
+
+#endif
