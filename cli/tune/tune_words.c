@@ -680,7 +680,7 @@ static void append_of_torque(cli_tuning *t)
     if (t->mains_Hz > 0.0 && t->is_solved)
         append(t, "; order %.5g is %.0f Hz at this one speed, as hum of the mains is: another speed tells",
                t->mains_order, t->mains_Hz);
-    else if (t->fast_Hz > 0.0 && t->is_solved && !hangs_on_lag(t))
+    else if (t->fast_Hz > 0.0 && t->is_solved && t->solution.expected.state != HCI_RIPPLE_KNOWN)
         append(t,
                "; at this one speed the ripple has %.0f Hz, of which a slower torque sensor or filter shows "
                "less, and late: a slow turn beside it tells",
