@@ -31,16 +31,16 @@ static void scale_rows(hci_cone_state *v)
             column[k] = v->weighed[k] * g[k];
         memcpy(column + at, g + at, (v->rows - at) * sizeof *g);
         for (size_t k = 0; k < c->cones; at += c->size[k++])
-            hci_cone_apply_block(&v->scaling, k, at, 1, column + at);
+            if (!v->ball[k]) hci_cone_apply_block(&v->scaling, k, at, 1, column + at);
     }
 }
 
-/* Adds the products of four rows of v->scaled, which begin at `row`, to the lower triangle: four at once so
- * that the triangle is fetched less often. few: workspace, 4·n. */
-static void add_four_rows(hci_cone_state *v, size_t row, double *few)
+/* Adds the products of up to four rows of v->scaled, which begin at `row`, to the lower triangle: four at
+ * once so that the triangle is fetched less often. */
+static void add_four_rows(hci_cone_state *v, size_t row, size_t end)
 {
-    const size_t n = v->n, left = v->rows - row < 4 ? v->rows - row : 4;
-    double *const r0 = few, *const r1 = few + n, *const r2 = r1 + n, *const r3 = r2 + n;
+    const size_t n = v->n, left = end - row < 4 ? end - row : 4;
+    double *const few = v->few, *const r0 = few, *const r1 = few + n, *const r2 = r1 + n, *const r3 = r2 + n;
     memset(few, 0, 4 * n * sizeof *few);
     for (size_t j = 0; j < n; ++j)
         for (size_t q = 0; q < left; ++q)
@@ -53,15 +53,43 @@ static void add_four_rows(hci_cone_state *v, size_t row, double *few)
     }
 }
 
+static void add_rows(hci_cone_state *v, size_t row, size_t end)
+{
+    for (; row < end; row += 4)
+        add_four_rows(v, row, end);
+}
+
+/* A ball brings (2qqᵀ + GᵀG)/η², q = Gᵀw̄ without its head: nothing in it is subtracted. */
+static void add_ball(hci_cone_state *v, size_t k, size_t at)
+{
+    const size_t n = v->n, rows = v->scaling.cone->size[k];
+    const double share = 1.0 / (v->scaling.eta[k] * v->scaling.eta[k]), *w = v->scaling.w + at;
+    double *q = v->few;
+    for (size_t j = 0; j < n; ++j)
+        q[j] = hci_vector_dot(rows - 1, w + 1, v->g + at + 1 + j * v->rows);
+    for (size_t j = 0; j < n; ++j) {
+        double *column = v->normal + j * n;
+        hci_vector_add(n - j, share, v->ball[k] + j * n + j, column + j);
+        hci_vector_add(n - j, 2.0 * share * q[j], q + j, column + j);
+    }
+}
+
 /* P + GᵀW⁻²G in the lower triangle. */
 static void make_normal(hci_cone_state *v)
 {
     const size_t n = v->n;
+    const hci_cone *c = &v->cone;
+    size_t begin = 0, at = c->linear;
     scale_rows(v);
     memset(v->normal, 0, n * n * sizeof *v->normal);
     if (v->p) memcpy(v->normal, v->p, n * n * sizeof *v->normal);
-    for (size_t row = 0; row < v->rows; row += 4)
-        add_four_rows(v, row, v->few);
+    for (size_t k = 0; k < c->cones; at += c->size[k++]) {
+        if (!v->ball[k]) continue;
+        add_rows(v, begin, at);
+        add_ball(v, k, at);
+        begin = at + c->size[k];
+    }
+    add_rows(v, begin, v->rows);
 }
 
 bool hci_cone_normal_factor(hci_cone_state *v)

@@ -5,7 +5,11 @@
 #include "core/math/vector.h"
 #include "host/base/memory.h"
 
-enum { VECTORS = 13, UNKNOWNS = 7 };
+enum {
+    VECTORS = 13,
+    UNKNOWNS = 7,
+    LEAST_BALL = 16 /* rows of a cone for which a product once does less than one in each step */
+};
 
 /* ---- products with the two-sided G ---- */
 
@@ -117,6 +121,41 @@ static void reduce_rows(hci_cone_state *v)
         v->h[q->rows + k] = v->weighed[k] - q->low[k];
 }
 
+/* ---- balls ---- */
+
+static bool is_ball(const hci_cone_state *v, size_t head, size_t rows)
+{
+    for (size_t j = 0; rows >= LEAST_BALL && j < v->n; ++j)
+        if (v->g[head + j * v->rows] != 0.0) return false;
+    return rows >= LEAST_BALL;
+}
+
+/* The lower triangle of GᵀG; NULL when memory is out. */
+static double *gram_of(const hci_cone_state *v, size_t head, size_t rows)
+{
+    double *gram = hci_memory_new(v->n * v->n, sizeof *gram);
+    for (size_t j = 0; gram && j < v->n; ++j)
+        for (size_t i = j; i < v->n; ++i)
+            gram[i + j * v->n] = hci_vector_dot(rows, v->g + head + i * v->rows, v->g + head + j * v->rows);
+    return gram;
+}
+
+static bool make_balls(hci_cone_state *v)
+{
+    const hci_cone *c = &v->cone;
+    size_t at = c->linear;
+    v->ball = hci_memory_new(c->cones + 1, sizeof *v->ball);
+    if (!v->ball) return false;
+    for (size_t k = 0; k < c->cones; at += c->size[k++]) {
+        if (!is_ball(v, at, c->size[k])) continue;
+        v->ball[k] = gram_of(v, at, c->size[k]);
+        if (!v->ball[k]) return false;
+    }
+    return true;
+}
+
+/* ---- all of it ---- */
+
 static void take_sizes(const hci_cone_problem *q, hci_cone_state *v)
 {
     v->cone = (hci_cone){q->linear, q->cones, q->two_sided, q->cone, 0};
@@ -140,6 +179,7 @@ hci_status hci_cone_state_make(const hci_cone_problem *q, hci_cone_state *v)
     if (has_memory) {
         reduce_objective(v, pz);
         reduce_rows(v);
+        has_memory = make_balls(v);
     }
     hci_memory_free(pz);
     return has_memory ? HCI_OK : HCI_ERROR_MEMORY;
@@ -147,6 +187,9 @@ hci_status hci_cone_state_make(const hci_cone_problem *q, hci_cone_state *v)
 
 void hci_cone_state_release(hci_cone_state *v)
 {
+    for (size_t k = 0; v->ball && k < v->cone.cones; ++k)
+        hci_memory_free(v->ball[k]);
+    hci_memory_free(v->ball);
     hci_null_space_release(&v->space);
     hci_memory_free(v->block);
 }

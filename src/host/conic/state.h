@@ -19,6 +19,8 @@ typedef struct {
     double *x, *s, *z, *rx, *rs;
     double *dx, *ds, *dz, *affine_s, *affine_z, *right, *weighed, *product, *gradient;
     double *normal, *factor, *scaled, *few; /* n×n, n×n, rows×n, 4·n */
+    double **ball; /* of each cone whose head does not depend on x GᵀG of its rows, n×n; NULL of others and of
+                    * small ones */
     double *best_x, *best_z, best;
     size_t idle;
     double *block;

@@ -29,11 +29,10 @@ bool hci_limit_build_begin(const hci_limit_program *of, hci_limit_stage stage, h
     b->coordinates = 2 * of->field.set->count;
     b->n = unknowns_of(b);
     b->width = b->n + 1;
-    b->cone = hci_memory_new(system_rows + 6, sizeof *b->cone);
     b->equal = hci_memory_new((system_rows + 3 * b->coordinates) * b->width, sizeof *b->equal);
     b->p = hci_memory_new(b->n * b->n, sizeof *b->p);
     b->c = hci_memory_new(b->n, sizeof *b->c);
-    return b->cone && b->equal && b->p && b->c;
+    return b->equal && b->p && b->c;
 }
 
 void hci_limit_build_release(hci_limit_build *b)
@@ -59,7 +58,9 @@ static bool grow(hci_limit_build *b)
     if (limit_of) b->limit_of = limit_of;
     hci_limit_point *at = hci_memory_resize(b->at, room, sizeof *at);
     if (at) b->at = at;
-    b->is_full = b->is_full || !row || !low || !limit_of || !at;
+    size_t *cone = hci_memory_resize(b->cone, room, sizeof *cone);
+    if (cone) b->cone = cone;
+    b->is_full = b->is_full || !row || !low || !limit_of || !at || !cone;
     if (!b->is_full) b->room = room;
     return !b->is_full;
 }
@@ -71,13 +72,20 @@ double *hci_limit_row_add(hci_limit_build *b)
     row = b->row + b->rows * b->width;
     memset(row, 0, b->width * sizeof *row);
     b->low[b->rows] = 0.0;
+    b->at[b->rows] = (hci_limit_point){.kind = HCI_POINT_NONE};
     b->limit_of[b->rows++] = 0;
     return row;
 }
 
-void hci_limit_cone_add(hci_limit_build *b, size_t rows)
+void hci_limit_cone_begin(hci_limit_build *b)
 {
-    b->cone[b->cones++] = rows;
+    if (b->is_full || (b->rows == b->room && !grow(b))) return;
+    b->cone[b->cones++] = b->rows;
+}
+
+void hci_limit_cone_end(hci_limit_build *b)
+{
+    if (!b->is_full) b->cone[b->cones - 1] = b->rows - b->cone[b->cones - 1];
 }
 
 double *hci_limit_equation_add(hci_limit_build *b)
@@ -88,6 +96,11 @@ double *hci_limit_equation_add(hci_limit_build *b)
 size_t hci_limit_tag(hci_limit_kind kind, int phase)
 {
     return 1 + 4 * (size_t)kind + (size_t)phase;
+}
+
+size_t hci_limit_tag_of(const hci_limit_point *p)
+{
+    return hci_limit_tag(p->kind == HCI_POINT_CURRENT ? HCI_LIMIT_CURRENT : HCI_LIMIT_VOLTAGE, p->phase);
 }
 
 void hci_limit_of_tag(size_t tag, hci_limit_kind *kind, int *phase)

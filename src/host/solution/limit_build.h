@@ -16,11 +16,11 @@ typedef struct {
     size_t rows, room;
     double *row;
     double *low;         /* of two-sided rows; room */
-    hci_limit_point *at; /* of rows of angles: which; room */
+    hci_limit_point *at; /* of rows of angles: which; NONE of others; room */
     size_t *limit_of;    /* whose multiplier a row has: hci_limit_tag, 0 of none; room */
     size_t two_sided, linear;
-    size_t distance;     /* row of the distance from the centre; 0: none */
-    size_t *cone, cones; /* rows of each cone */
+    size_t distance;     /* 1 + row of the distance from the centre; 0: none */
+    size_t *cone, cones; /* rows of each cone; room */
 
     double *equal; /* rows */
     size_t equalities;
@@ -35,8 +35,9 @@ void hci_limit_build_release(hci_limit_build *build);
 /* A new row of zeros; NULL when memory is out, and then the program is not used. */
 double *hci_limit_row_add(hci_limit_build *build);
 
-/* The rows of a cone that follow: so many. */
-void hci_limit_cone_add(hci_limit_build *build, size_t rows);
+/* Around the rows of a cone, its head first. */
+void hci_limit_cone_begin(hci_limit_build *build);
+void hci_limit_cone_end(hci_limit_build *build);
 
 /* A new equation of zeros. */
 double *hci_limit_equation_add(hci_limit_build *build);
@@ -49,6 +50,7 @@ bool hci_limit_is_swing(const hci_limit_build *build);
 
 /* Of a limit, and what it was made of. */
 size_t hci_limit_tag(hci_limit_kind kind, int phase);
+size_t hci_limit_tag_of(const hci_limit_point *point); /* of a current or voltage */
 void hci_limit_of_tag(size_t tag, hci_limit_kind *kind, int *phase);
 
 #endif

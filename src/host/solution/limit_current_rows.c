@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "core/math/vector.h"
 #include "host/solve/harmonic_system.h"
 
 #define LEAST_COPPER 1e-6 /* of a unit that makes none */
@@ -18,77 +19,123 @@ static double limit_of(const hci_limit_program *p, const hci_limit_point *at)
            (1.0 - 2.0 * HCI_LIMIT_MARGIN);
 }
 
-/* |g·x + constant| <= limit: one two-sided row, or two rows with the share by which limits are widened. */
-static void add_point(hci_limit_build *b, const hci_limit_point *at, const double *g, double constant)
+/* A new row of an angle; NULL when memory is out. */
+static double *angle_row(hci_limit_build *b, const hci_limit_point *at)
 {
-    const double limit = limit_of(b->of, at), scale = b->of->scale_A / limit;
+    double *row = hci_limit_row_add(b);
+    if (!row) return NULL;
+    b->at[b->rows - 1] = *at;
+    if (at->kind != HCI_POINT_TORQUE) b->limit_of[b->rows - 1] = hci_limit_tag_of(at);
+    return row;
+}
+
+/* |g·x + constant| <= limit: one two-sided row, or two rows with the share by which limits are widened. */
+static void add_two_sided(hci_limit_build *b, const hci_limit_point *at, const double *g)
+{
+    const double limit = limit_of(b->of, at), scale = b->of->scale_A / limit, constant = g[b->coordinates];
     const int sides = b->stage == HCI_STAGE_FIT ? 2 : 1;
     for (int side = 0; side < sides; ++side) {
-        double *row = hci_limit_row_add(b);
+        double *row = angle_row(b, at);
         const double sign = side == 0 ? 1.0 : -1.0;
         if (!row) return;
         for (size_t j = 0; j < b->coordinates; ++j)
             row[j] = sign * scale * g[j];
         row[b->n] = 1.0 - sign * constant / limit;
-        b->at[b->rows - 1] = *at;
         b->low[b->rows - 1] = -1.0 - constant / limit;
         if (sides == 2) row[hci_limit_objective(b)] = -1.0;
-        b->limit_of[b->rows - 1] =
-            hci_limit_tag(at->kind == HCI_POINT_CURRENT ? HCI_LIMIT_CURRENT : HCI_LIMIT_VOLTAGE, at->phase);
     }
 }
 
-/* Torque less wanted torque is at most the highest and at least the lowest. */
-static void add_torque_point(hci_limit_build *b, const double *g, double constant_Nm)
+/* Torque less wanted torque is at most the highest (phase 0) and at least the lowest. */
+static void add_torque(hci_limit_build *b, const hci_limit_point *at, const double *g)
 {
     for (int side = 0; side < 2; ++side) {
-        double *row = hci_limit_row_add(b);
+        const hci_limit_point end = {at->kind, side, at->theta_rad, 0.0};
         const double sign = (side == 0 ? 1.0 : -1.0) / b->of->scale_Nm;
+        double *row = angle_row(b, &end);
         if (!row) return;
         for (size_t j = 0; j < b->coordinates; ++j)
             row[j] = sign * b->of->scale_A * g[j];
-        row[b->n] = -sign * constant_Nm;
+        row[b->n] = -sign * g[b->coordinates];
         row[hci_limit_objective(b) + 1 + (size_t)side] = side == 0 ? -1.0 : 1.0;
     }
 }
 
-static void add_any_point(hci_limit_build *b, const hci_limit_point *at, const double *g, double constant)
+/* |(g·x + constant of both axes)| <= limit: a cone. */
+static void add_vector(hci_limit_build *b, const hci_limit_point *at, const double *g)
 {
+    const double limit = limit_of(b->of, at), scale = b->of->scale_A / limit;
+    hci_limit_cone_begin(b);
+    double *head = angle_row(b, at);
+    if (!head) return;
+    head[b->n] = 1.0;
+    if (b->stage == HCI_STAGE_FIT) head[hci_limit_objective(b)] = -1.0;
+    for (int axis = 0; axis < 2; ++axis, g += b->coordinates + 1) {
+        double *row = angle_row(b, at);
+        if (!row) return;
+        b->limit_of[b->rows - 1] = 0;
+        for (size_t j = 0; j < b->coordinates; ++j)
+            row[j] = scale * g[j];
+        row[b->n] = -g[b->coordinates] / limit;
+    }
+    hci_limit_cone_end(b);
+}
+
+/* Whether the quantity stays below its limit, whatever the currents within the distance from the centre. */
+static bool is_out_of_reach(const hci_limit_build *b, const hci_limit_point *at, const double *g)
+{
+    const hci_limit_program *p = b->of;
+    const size_t n = b->coordinates;
+    double steepest = 0.0;
+    if (!(p->radius_A > 0.0) || b->stage == HCI_STAGE_FIT || at->kind == HCI_POINT_TORQUE) return false;
+    for (size_t k = 0; k < hci_limit_parts(at->kind); ++k)
+        steepest += hci_vector_dot(n, g + k * (n + 1), g + k * (n + 1));
+    return fabs(hci_limit_value(at->kind, n, g, p->centre)) + sqrt(steepest) * p->radius_A < limit_of(p, at);
+}
+
+static void add_point(hci_limit_build *b, const hci_limit_point *at, const double *g)
+{
+    if (is_out_of_reach(b, at, g)) return;
     if (at->kind == HCI_POINT_TORQUE)
-        add_torque_point(b, g, constant);
+        add_torque(b, at, g);
+    else if (at->kind == HCI_POINT_VECTOR)
+        add_vector(b, at, g);
     else
-        add_point(b, at, g, constant);
+        add_two_sided(b, at, g);
 }
 
 static void add_grid(hci_limit_build *b, const hci_limit_grid *grid)
 {
     for (size_t k = 0; k < grid->samples; ++k) {
         const hci_limit_point at = {grid->kind, grid->phase, grid->step_rad * (double)k, 0.0};
-        if (grid->is_row[k]) add_any_point(b, &at, grid->g + k * grid->unknowns, grid->constant[k]);
+        if (grid->is_row[k]) add_point(b, &at, hci_limit_grid_rows(grid, k));
     }
 }
 
-/* Those of the torque, or of all that is limited. */
-static void add_angles(hci_limit_build *b, bool is_torque)
+static void add_angles(hci_limit_build *b, hci_point_kind kind)
 {
     const hci_limit_program *p = b->of;
     for (size_t q = 0; q < p->grids; ++q)
-        if ((p->grid[q].kind == HCI_POINT_TORQUE) == is_torque) add_grid(b, &p->grid[q]);
-    for (size_t k = 0; k < p->points.rows; ++k) {
-        const hci_limit_point *at = &p->points.point[k];
-        const double *g = hci_limit_points_row(&p->points, k);
-        if ((at->kind == HCI_POINT_TORQUE) == is_torque) add_any_point(b, at, g, g[b->coordinates]);
-    }
+        if (p->grid[q].kind == kind) add_grid(b, &p->grid[q]);
+    for (size_t k = 0; k < p->points.rows; ++k)
+        if (p->points.point[k].kind == kind)
+            add_point(b, &p->points.point[k], hci_limit_points_row(&p->points, k));
 }
 
 void hci_limit_add_angles(hci_limit_build *b)
 {
-    add_angles(b, false);
+    add_angles(b, HCI_POINT_CURRENT);
+    add_angles(b, HCI_POINT_VOLTAGE);
+}
+
+void hci_limit_add_vectors(hci_limit_build *b)
+{
+    add_angles(b, HCI_POINT_VECTOR);
 }
 
 void hci_limit_add_torque_angles(hci_limit_build *b)
 {
-    if (hci_limit_is_swing(b) && b->stage >= HCI_STAGE_RIPPLE) add_angles(b, true);
+    if (hci_limit_is_swing(b) && b->stage >= HCI_STAGE_RIPPLE) add_angles(b, HCI_POINT_TORQUE);
 }
 
 /* ---- one order as a phase sees it ---- */
@@ -142,10 +189,10 @@ static void phase_row(const hci_limit_build *b, const phase_part *x, double *row
 /* ---- rms ---- */
 
 /* The head of a cone of heat: 1, and the share by which limits are widened. */
-static void add_heat_head(hci_limit_build *b, size_t rows, size_t limit_of)
+static void add_heat_head(hci_limit_build *b, size_t limit_of)
 {
     double *row;
-    hci_limit_cone_add(b, rows);
+    hci_limit_cone_begin(b);
     row = hci_limit_row_add(b);
     if (!row) return;
     row[b->n] = 1.0;
@@ -157,9 +204,8 @@ static void add_heat_head(hci_limit_build *b, size_t rows, size_t limit_of)
 static void add_rms(hci_limit_build *b, int phase)
 {
     const double limit_A = b->of->bounds->rms_A[phase] * (1.0 + b->of->widened);
-    const size_t head = b->rows;
     if (!(limit_A < HUGE_VAL)) return;
-    add_heat_head(b, 0, hci_limit_tag(HCI_LIMIT_RMS, phase));
+    add_heat_head(b, hci_limit_tag(HCI_LIMIT_RMS, phase));
     for (size_t k = 0; k < b->of->field.set->count; ++k) {
         const double order = b->of->field.set->component[k].order;
         const bool is_mean = order < HCI_ORDER_TOLERANCE;
@@ -169,7 +215,7 @@ static void add_rms(hci_limit_build *b, int phase)
             if (row) phase_row(b, &x, row);
         }
     }
-    b->cone[b->cones - 1] = b->rows - head;
+    hci_limit_cone_end(b);
 }
 
 void hci_limit_add_rms(hci_limit_build *b)
@@ -191,7 +237,7 @@ void hci_limit_add_copper(hci_limit_build *b)
     const hci_wave *held = b->of->field.held;
     const double limit_A = sqrt(b->of->bounds->mean_square_A2) * (1.0 + b->of->widened);
     if (!(limit_A < HUGE_VAL)) return;
-    add_heat_head(b, 1 + b->coordinates + (held ? 1 : 0), hci_limit_tag(HCI_LIMIT_COPPER, 0));
+    add_heat_head(b, hci_limit_tag(HCI_LIMIT_COPPER, 0));
     for (size_t j = 0; j < b->coordinates; ++j) {
         double *row = hci_limit_row_add(b);
         if (row)
@@ -200,6 +246,7 @@ void hci_limit_add_copper(hci_limit_build *b)
     }
     double *row = held ? hci_limit_row_add(b) : NULL;
     if (row) row[b->n] = sqrt(1.5) * hci_amplitude(held->sine, held->cosine) / limit_A;
+    hci_limit_cone_end(b);
 }
 
 /* ---- distance ---- */
@@ -209,16 +256,17 @@ void hci_limit_add_trust(hci_limit_build *b)
 {
     const hci_limit_program *p = b->of;
     if (!(p->radius_A > 0.0) || b->stage == HCI_STAGE_FIT) return;
-    hci_limit_cone_add(b, 1 + b->coordinates);
+    hci_limit_cone_begin(b);
     double *head = hci_limit_row_add(b);
     if (head) head[b->n] = 1.0;
-    b->distance = b->rows - 1;
+    b->distance = b->rows;
     for (size_t j = 0; j < b->coordinates; ++j) {
         double *row = hci_limit_row_add(b);
         if (!row) return;
         row[j] = p->scale_A / p->radius_A;
         row[b->n] = p->centre[j] / p->radius_A;
     }
+    hci_limit_cone_end(b);
 }
 
 /* ---- open phases ---- */

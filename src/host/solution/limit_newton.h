@@ -5,10 +5,13 @@
 #include "host/conic/problem.h"
 #include "host/solution/limit_build.h"
 
-/* From the program of a stage and its answer to where the conditions of Karush, Kuhn and Tucker hold with the
- * limits at every angle: fills *optimum and sets its is_settled. Where it does not come there, *optimum
- * stays, as where the swing is minimised. HCI_ERROR_MEMORY, without a note. */
-hci_status hci_limit_newton(const hci_limit_build *build, const hci_cone_answer *answer,
+/* From the program of a stage and its answer, or without one (NULL) from where it came to rest last, to where
+ * the conditions of Karush, Kuhn and Tucker hold with the limits at every angle: fills *optimum, sets its
+ * is_settled, and *last. Where it does not come there, *optimum stays, and *last is emptied if it began
+ * there. HCI_ERROR_MEMORY, without a note. */
+hci_status hci_limit_newton(const hci_limit_build *build, const hci_cone_answer *answer, hci_limit_rest *last,
                             hci_limit_optimum *optimum);
+
+void hci_limit_rest_release(hci_limit_rest *rest);
 
 #endif

@@ -83,25 +83,31 @@ static double link_of(const hci_limit_field *f, const hci_linear_voltage *v, con
     return of_point(f, p, sum);
 }
 
-static double voltage_row(const hci_limit_field *f, const hci_limit_point *p, double *g)
-{
-    hci_plane_current at = {{0.0, 0.0}, {0.0, 0.0}}, held = at, i[2];
+/* The voltage at one angle, made linear, and the currents there. */
+typedef struct {
     hci_linear_voltage v;
+    hci_plane_current at, held;
+} voltage;
+
+static voltage voltage_at(const hci_limit_field *f, double theta_rad)
+{
+    voltage x = {.at = {{0.0, 0.0}, {0.0, 0.0}}, .held = {{0.0, 0.0}, {0.0, 0.0}}};
     for (size_t k = 0; f->at && k < f->at->count; ++k)
-        add_plane(&f->at->wave[k], p->theta_rad, &at);
-    hci_voltage_linearise(f->voltage, p->theta_rad, &at, &v);
-    for (size_t k = 0; k < f->set->count; ++k) {
-        plane_pair(f->set->component[k], p->theta_rad, i);
-        g[2 * k] = link_of(f, &v, &i[0], p);
-        g[2 * k + 1] = link_of(f, &v, &i[1], p);
-    }
-    if (f->held) add_plane(f->held, p->theta_rad, &held);
-    return of_point(f, p, v.value) + link_of(f, &v, &held, p) - link_of(f, &v, &at, p);
+        add_plane(&f->at->wave[k], theta_rad, &x.at);
+    hci_voltage_linearise(f->voltage, theta_rad, &x.at, &x.v);
+    if (f->held) add_plane(f->held, theta_rad, &x.held);
+    return x;
 }
 
-bool hci_limit_is_circle(const hci_limit_field *f)
+static double voltage_row(const hci_limit_field *f, const voltage *x, const hci_limit_point *p, double *g)
 {
-    return f->voltage && f->voltage->modulation == HCI_MODULATION_CIRCLE;
+    hci_plane_current i[2];
+    for (size_t k = 0; k < f->set->count; ++k) {
+        plane_pair(f->set->component[k], p->theta_rad, i);
+        g[2 * k] = link_of(f, &x->v, &i[0], p);
+        g[2 * k + 1] = link_of(f, &x->v, &i[1], p);
+    }
+    return of_point(f, p, x->v.value) + link_of(f, &x->v, &x->held, p) - link_of(f, &x->v, &x->at, p);
 }
 
 bool hci_limit_is_bent(const hci_limit_field *f)
@@ -109,15 +115,15 @@ bool hci_limit_is_bent(const hci_limit_field *f)
     return f->voltage && f->voltage->effects && f->voltage->effects->count > 0;
 }
 
-double hci_limit_link_V(const hci_limit_field *f, int place, double theta_rad, const hci_wave_list *i)
+double hci_limit_link_V(const hci_limit_field *f, const hci_limit_point *point, const hci_wave_list *i)
 {
     hci_plane_current sum = {{0.0, 0.0}, {0.0, 0.0}};
     double v[2];
     for (size_t k = 0; k < i->count; ++k)
-        add_plane(&i->wave[k], theta_rad, &sum);
-    hci_voltage_at(f->voltage, theta_rad, &sum, v);
-    return f->voltage->modulation == HCI_MODULATION_CIRCLE ? hci_voltage_of_circle(v)
-                                                           : hci_voltage_of_link(f->voltage, v, place);
+        add_plane(&i->wave[k], point->theta_rad, &sum);
+    hci_voltage_at(f->voltage, point->theta_rad, &sum, v);
+    return point->kind == HCI_POINT_VECTOR ? hci_voltage_of_circle(v)
+                                           : hci_voltage_of_link(f->voltage, v, point->phase);
 }
 
 /* Σ over orders above 0 of (U x − h) as a wave at the angle. The weight of the rows is taken out again. */
@@ -147,14 +153,43 @@ static double torque_row(const hci_limit_field *f, const hci_limit_point *p, dou
 double hci_limit_row(const hci_limit_field *field, const hci_limit_point *point, double *g)
 {
     if (point->kind == HCI_POINT_CURRENT) return current_row(field, point, g);
-    if (point->kind != HCI_POINT_TORQUE) return voltage_row(field, point, g);
-    return torque_row(field, point, g);
+    if (point->kind == HCI_POINT_TORQUE) return torque_row(field, point, g);
+    const voltage x = voltage_at(field, point->theta_rad);
+    return voltage_row(field, &x, point, g);
 }
 
-/* Room for a row of any kind: that of the torque is made in what is behind its end. */
-static size_t row_room_of(const hci_limit_field *f)
+size_t hci_limit_parts(hci_point_kind kind)
 {
-    return 2 * f->set->count + (f->system ? f->system->rows + f->system->unknowns : 0);
+    return kind == HCI_POINT_VECTOR ? 2 : 1;
+}
+
+void hci_limit_rows(const hci_limit_field *f, const hci_limit_point *point, double *g)
+{
+    const size_t n = 2 * f->set->count;
+    if (point->kind != HCI_POINT_VECTOR) {
+        const double constant = hci_limit_row(f, point, g); /* which may write behind its row */
+        g[n] = constant;
+        return;
+    }
+    const voltage x = voltage_at(f, point->theta_rad);
+    hci_limit_point at = *point;
+    for (int axis = 0; axis < 2; ++axis, g += n + 1) {
+        at.direction_rad = 0.5 * HCI_PI * axis;
+        g[n] = voltage_row(f, &x, &at, g);
+    }
+}
+
+double hci_limit_value(hci_point_kind kind, size_t n, const double *g, const double *x)
+{
+    const double first = g[n] + hci_vector_dot(n, g, x);
+    if (kind != HCI_POINT_VECTOR) return first;
+    return hypot(first, g[2 * n + 1] + hci_vector_dot(n, g + n + 1, x));
+}
+
+/* That of the torque is made in what is behind its end. */
+size_t hci_limit_row_room(const hci_limit_field *f)
+{
+    return 4 * f->set->count + 2 + (f->system ? f->system->rows + f->system->unknowns : 0);
 }
 
 /* ---- lists ---- */
@@ -174,8 +209,9 @@ hci_status hci_limit_points_add(hci_limit_points *points, hci_limit_point point)
 
 hci_status hci_limit_points_fill(const hci_limit_field *field, hci_limit_points *points)
 {
-    const size_t width = 2 * field->set->count + 1,
-                 needed = points->count * width + row_room_of(field); /* a row may write behind its end */
+    const size_t width = 4 * field->set->count + 2,
+                 needed =
+                     points->count * width + hci_limit_row_room(field); /* a row may write behind its end */
     if (needed > points->row_room) {
         double *more = hci_memory_resize(points->row, 2 * needed, sizeof *more);
         if (!more) return HCI_ERROR_MEMORY;
@@ -183,11 +219,8 @@ hci_status hci_limit_points_fill(const hci_limit_field *field, hci_limit_points 
         points->row_room = 2 * needed;
     }
     points->width = width;
-    for (; points->rows < points->count; ++points->rows) {
-        double *g = points->row + points->rows * width;
-        const double constant = hci_limit_row(field, &points->point[points->rows], g);
-        g[width - 1] = constant;
-    }
+    for (; points->rows < points->count; ++points->rows)
+        hci_limit_rows(field, &points->point[points->rows], points->row + points->rows * width);
     return HCI_OK;
 }
 
@@ -225,16 +258,16 @@ void hci_limit_points_release(hci_limit_points *points)
 
 hci_status hci_limit_grid_make(const hci_limit_field *field, hci_limit_grid *grid)
 {
-    grid->unknowns = 2 * field->set->count;
+    const size_t n = 2 * field->set->count, width = hci_limit_parts(grid->kind) * (n + 1);
+    grid->unknowns = n;
     grid->step_rad = grid->period_rad / (double)grid->samples;
-    grid->g = hci_memory_new(grid->samples * grid->unknowns + row_room_of(field), sizeof *grid->g);
-    grid->constant = hci_memory_new(grid->samples, sizeof *grid->constant);
+    grid->g = hci_memory_new(grid->samples * width + hci_limit_row_room(field), sizeof *grid->g);
     grid->is_row = hci_memory_new(grid->samples, sizeof *grid->is_row);
-    if (!grid->g || !grid->constant || !grid->is_row) return HCI_ERROR_MEMORY;
+    if (!grid->g || !grid->is_row) return HCI_ERROR_MEMORY;
     for (size_t k = 0; k < grid->samples;
          ++k) { /* a row may write behind its end, which the next one fills */
         const hci_limit_point p = {grid->kind, grid->phase, grid->step_rad * (double)k, 0.0};
-        grid->constant[k] = hci_limit_row(field, &p, grid->g + k * grid->unknowns);
+        hci_limit_rows(field, &p, grid->g + k * width);
     }
     return HCI_OK;
 }
@@ -242,14 +275,18 @@ hci_status hci_limit_grid_make(const hci_limit_field *field, hci_limit_grid *gri
 void hci_limit_grid_release(hci_limit_grid *grid)
 {
     hci_memory_free(grid->g);
-    hci_memory_free(grid->constant);
     hci_memory_free(grid->is_row);
     memset(grid, 0, sizeof *grid);
 }
 
+const double *hci_limit_grid_rows(const hci_limit_grid *grid, size_t k)
+{
+    return grid->g + k * hci_limit_parts(grid->kind) * (grid->unknowns + 1);
+}
+
 static double sample_at(const hci_limit_grid *grid, const double *x, size_t k)
 {
-    return grid->constant[k] + hci_vector_dot(grid->unknowns, grid->g + k * grid->unknowns, x);
+    return hci_limit_value(grid->kind, grid->unknowns, hci_limit_grid_rows(grid, k), x);
 }
 
 void hci_limit_grid_thin(hci_limit_grid *grid, const double *x, const double range[2], double share)
@@ -277,8 +314,8 @@ static double beyond_at(const void *context, double theta_rad)
 {
     const search *s = context;
     const hci_limit_point p = {s->grid->kind, s->grid->phase, theta_rad, 0.0};
-    const double constant = hci_limit_row(s->field, &p, s->row);
-    return beyond(s->range, constant + hci_vector_dot(s->grid->unknowns, s->row, s->x));
+    hci_limit_rows(s->field, &p, s->row);
+    return beyond(s->range, hci_limit_value(p.kind, s->grid->unknowns, s->row, s->x));
 }
 
 static hci_status take_peak(const search *s, size_t k, hci_limit_points *points, double *worst)
@@ -295,78 +332,19 @@ hci_status hci_limit_peaks(const hci_limit_field *field, const hci_limit_grid *g
                            const double range[2], hci_limit_points *points, double *worst)
 {
     const size_t n = grid->samples;
-    double *row = hci_memory_new(row_room_of(field) + n, sizeof *row), *over = row + row_room_of(field);
+    double *row = hci_memory_new(hci_limit_row_room(field) + n, sizeof *row),
+           *over = row + hci_limit_row_room(field);
     const search s = {field, grid, x, range, row};
     const double near = NEARLY * (range[1] - range[0]);
     hci_status status = row ? HCI_OK : HCI_ERROR_MEMORY;
     *worst = -HUGE_VAL;
     for (size_t k = 0; !status && k < n; ++k)
-        over[k] = beyond(range,
-                         grid->constant[k] + hci_vector_dot(grid->unknowns, grid->g + k * grid->unknowns, x));
+        over[k] = beyond(range, sample_at(grid, x, k));
     for (size_t k = 0; !status && k < n; ++k) {
         *worst = fmax(*worst, over[k]);
         if (over[k] >= over[(k + n - 1) % n] && over[k] > over[(k + 1) % n] && over[k] > -near)
             status = take_peak(&s, k, points, worst);
     }
     hci_memory_free(row);
-    return status;
-}
-
-/* ---- the circle ---- */
-
-/* A search for peaks of the voltage vector: rows in the directions of the plane's axes. */
-typedef struct {
-    const hci_limit_field *field;
-    const double *x;
-    double limit_V, *row;
-} vector_search;
-
-static void vector_at(const vector_search *s, double theta_rad, double v[2])
-{
-    for (int k = 0; k < 2; ++k) {
-        const hci_limit_point p = {HCI_POINT_VECTOR, 0, theta_rad, 0.5 * HCI_PI * k};
-        const double constant = hci_limit_row(s->field, &p, s->row);
-        v[k] = constant + hci_vector_dot(2 * s->field->set->count, s->row, s->x);
-    }
-}
-
-static double vector_beyond(const void *context, double theta_rad)
-{
-    const vector_search *s = context;
-    double v[2];
-    vector_at(s, theta_rad, v);
-    return hypot(v[0], v[1]) - s->limit_V;
-}
-
-static hci_status take_vector(const vector_search *s, double step_rad, double theta_rad,
-                              hci_limit_points *points)
-{
-    const hci_peak_function f = {vector_beyond, s};
-    double v[2];
-    if (!(hci_peak_refine(&f, step_rad, &theta_rad) > 0.0)) return HCI_OK;
-    vector_at(s, theta_rad, v);
-    return hci_limit_points_add(points, (hci_limit_point){HCI_POINT_VECTOR, 0, theta_rad, atan2(v[1], v[0])});
-}
-
-/* √3 times the amplitude, of the line voltages a to b and b to c. */
-static double circle_of_lines(double ab_V, double bc_V)
-{
-    return sqrt(4.0 / 3.0 * (ab_V * ab_V + ab_V * bc_V + bc_V * bc_V));
-}
-
-hci_status hci_limit_vector_peaks(const hci_limit_field *field, const hci_limit_grid grid[2], const double *x,
-                                  double limit_V, hci_limit_points *points)
-{
-    const size_t n = grid->samples;
-    double *over = hci_memory_new(row_room_of(field) + n, sizeof *over);
-    const vector_search s = {field, x, limit_V, over ? over + n : NULL};
-    hci_status status = over ? HCI_OK : HCI_ERROR_MEMORY;
-    for (size_t k = 0; !status && k < n; ++k)
-        over[k] = circle_of_lines(sample_at(&grid[0], x, k), sample_at(&grid[1], x, k)) - limit_V;
-    for (size_t k = 0; !status && k < n; ++k)
-        if (over[k] >= over[(k + n - 1) % n] && over[k] > over[(k + 1) % n] &&
-            over[k] > -2.0 * NEARLY * limit_V)
-            status = take_vector(&s, grid->step_rad, grid->step_rad * (double)k, points);
-    hci_memory_free(over);
     return status;
 }

@@ -27,7 +27,8 @@ typedef struct {
 
     const double *centre; /* coordinates from which x is at most radius_A away, √Σ of squares; 0: no bound */
     double radius_A;
-    double idle_Nm; /* RIPPLE within that distance: orders that cannot exceed it there are left out; 0: none */
+    double
+        idle_Nm; /* RIPPLE within that distance: orders that cannot exceed it there are left out; 0: none */
 
     double precision;     /* of the solver, relative; 0: as precise as it gets */
     double widened;       /* share by which every limit is wider than asked for */
@@ -49,6 +50,13 @@ typedef struct {
     bool is_infeasible;
     bool is_settled; /* it keeps the limits at every angle */
 } hci_limit_optimum;
+
+/* Where Newton's method of a stage came to rest. Start with {0}. */
+typedef struct {
+    double *x; /* n unknowns, then the multipliers of `rest` rows of no angle and of `peaks` peaks */
+    hci_limit_point *at; /* peaks */
+    size_t n, rest, peaks;
+} hci_limit_rest;
 
 /* A share of a limit that is kept free, so that peaks found to the same share beyond are within it. */
 #define HCI_LIMIT_MARGIN 1e-9

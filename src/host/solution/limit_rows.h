@@ -5,9 +5,11 @@
 
 #include "host/solution/limit_build.h"
 
-/* Phase currents and line voltages at angles, or the torque there (limit_current_rows.c). */
+/* Phase currents and line voltages at angles; the torque there; cones of the voltage vector there
+ * (limit_current_rows.c). */
 void hci_limit_add_angles(hci_limit_build *build);
 void hci_limit_add_torque_angles(hci_limit_build *build);
+void hci_limit_add_vectors(hci_limit_build *build);
 
 /* Orders of the torque (limit_torque_rows.c): the mean and the swing, linear; cones of the orders above 0;
  * equations of orders that are as wanted. */

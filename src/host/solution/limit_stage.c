@@ -47,6 +47,7 @@ void hci_limit_stage_fill(hci_limit_build *b)
     hci_limit_add_torque_angles(b);
     hci_limit_add_swing(b);
     b->linear = b->rows;
+    hci_limit_add_vectors(b);
     hci_limit_add_torque_cones(b);
     hci_limit_add_rms(b);
     hci_limit_add_copper(b);
@@ -90,6 +91,11 @@ static double unit_of(const hci_limit_build *b)
     return b->stage == HCI_STAGE_COPPER ? 3.0 * scale_A * scale_A : b->of->scale_Nm;
 }
 
+void hci_limit_stage_add_gain(const hci_limit_build *b, size_t tag, double z, hci_limit_optimum *o)
+{
+    read_gain(b->of->bounds, tag, unit_of(b) * fabs(z) / (1.0 + b->of->widened), o);
+}
+
 static double copper_A2(const hci_limit_build *b, const double *x)
 {
     double sum = 0.0;
@@ -110,10 +116,10 @@ void hci_limit_stage_read(const hci_limit_build *b, const hci_cone_answer *a, hc
         o->lowest_Nm = b->of->scale_Nm * wish[2];
     }
     if (b->distance > 0)
-        o->pull = unit * fabs(a->z[b->distance]) * sqrt(hci_vector_dot(b->coordinates, o->x, o->x)) /
+        o->pull = unit * fabs(a->z[b->distance - 1]) * sqrt(hci_vector_dot(b->coordinates, o->x, o->x)) /
                   b->of->radius_A;
     for (size_t k = 0; k < b->rows; ++k)
-        read_gain(b->of->bounds, b->limit_of[k], unit * fabs(a->z[k]) / (1.0 + b->of->widened), o);
+        hci_limit_stage_add_gain(b, b->limit_of[k], a->z[k], o);
 }
 
 /* ---- all of it ---- */
@@ -137,7 +143,21 @@ static hci_cone_problem problem_of(const hci_limit_build *b, const double *g, co
                               .precision = b->of->precision};
 }
 
-static hci_status solve(const hci_limit_build *b, const hci_cone_problem *problem, hci_limit_finish *finish,
+/* What ends a stage, and where it did last; without a function nothing does. */
+typedef struct {
+    hci_limit_finish *finish;
+    hci_limit_rest *last;
+} ending;
+
+static hci_status finish(const ending *e, const hci_limit_build *b, const hci_cone_answer *answer,
+                         hci_limit_optimum *o, hci_note *note)
+{
+    return e->finish && e->finish(b, answer, e->last, o)
+               ? hci_note_memory(note, NULL, "solving within limits")
+               : HCI_OK;
+}
+
+static hci_status solve(const hci_limit_build *b, const hci_cone_problem *problem, const ending *e,
                         hci_limit_optimum *o, hci_note *note)
 {
     hci_cone_answer answer;
@@ -147,20 +167,18 @@ static hci_status solve(const hci_limit_build *b, const hci_cone_problem *proble
                               "they were not met to working precision (%.1e); try wider or fewer ones",
                               answer.error);
     if (!status) hci_limit_stage_read(b, &answer, o);
-    if (!status && finish && answer.end == HCI_CONE_SOLVED && finish(b, &answer, o))
-        status = hci_note_memory(note, NULL, "solving within limits");
+    if (!status && answer.end == HCI_CONE_SOLVED) status = finish(e, b, &answer, o, note);
     hci_cone_answer_release(&answer);
     return status;
 }
 
-static hci_status solve_built(const hci_limit_build *b, hci_limit_finish *finish, hci_limit_optimum *o,
-                              hci_note *note)
+static hci_status solve_built(const hci_limit_build *b, const ending *e, hci_limit_optimum *o, hci_note *note)
 {
     double *g = by_columns(b->row, b->rows, b->width), *equal = by_columns(b->equal, b->equalities, b->width);
     hci_status status = g && equal ? HCI_OK : hci_note_memory(note, NULL, "solving within limits");
     if (!status) {
         const hci_cone_problem problem = problem_of(b, g, equal);
-        status = solve(b, &problem, finish, o, note);
+        status = solve(b, &problem, e, o, note);
     }
     hci_memory_free(g);
     hci_memory_free(equal);
@@ -168,8 +186,10 @@ static hci_status solve_built(const hci_limit_build *b, hci_limit_finish *finish
 }
 
 hci_status hci_limit_stage_solve(const hci_limit_program *program, hci_limit_stage stage,
-                                 hci_limit_finish *finish, hci_limit_optimum *optimum, hci_note *note)
+                                 hci_limit_finish *finish_by, hci_limit_rest *last,
+                                 hci_limit_optimum *optimum, hci_note *note)
 {
+    const ending e = {finish_by, last};
     hci_limit_build b;
     hci_status status = HCI_OK;
     bool has_memory = hci_limit_build_begin(program, stage, &b);
@@ -178,7 +198,8 @@ hci_status hci_limit_stage_solve(const hci_limit_program *program, hci_limit_sta
     if (has_memory) hci_limit_stage_fill(&b);
     if (!has_memory || b.is_full || !optimum->x)
         status = hci_note_memory(note, NULL, "solving within limits");
-    if (!status) status = solve_built(&b, finish, optimum, note);
+    if (!status) status = finish(&e, &b, NULL, optimum, note);
+    if (!status && !optimum->is_settled) status = solve_built(&b, &e, optimum, note);
     hci_limit_build_release(&b);
     return status;
 }

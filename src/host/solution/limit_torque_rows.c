@@ -117,33 +117,54 @@ static bool is_idle(const hci_limit_build *b, size_t head)
     return sqrt(square) + sqrt(steepest) * p->radius_A / p->scale_A < p->idle_Nm / p->scale_Nm;
 }
 
-/* Its length is known when its rows are there. */
-static size_t begin_cone(hci_limit_build *b)
+/* The cone of one order, unless it is idle. first: whether it is the first, which is kept. */
+static void add_order(hci_limit_build *b, size_t k, bool first)
 {
-    hci_limit_cone_add(b, 0);
+    const size_t head = b->rows;
+    hci_limit_cone_begin(b);
     add_torque_head(b);
-    return b->rows - 1;
+    add_torque_row(b, k);
+    add_torque_row(b, k + 1);
+    hci_limit_cone_end(b);
+    if (first || !is_idle(b, head)) return;
+    b->rows = head;
+    --b->cones;
+}
+
+static bool is_order_reached(const hci_limit_build *b, size_t k)
+{
+    return is_reached(b->of->field.system, k, 2);
+}
+
+/* One cone of all orders. */
+static void add_all_orders(hci_limit_build *b)
+{
+    const hci_harmonic_system *s = b->of->field.system;
+    const size_t before = b->cones;
+    for (size_t k = has_mean_row(s) ? 1 : 0; k < s->rows; k += 2) {
+        if (!is_order_reached(b, k)) continue;
+        if (b->cones == before) {
+            hci_limit_cone_begin(b);
+            add_torque_head(b);
+        }
+        add_torque_row(b, k);
+        add_torque_row(b, k + 1);
+    }
+    if (b->cones > before) hci_limit_cone_end(b);
 }
 
 /* One cone for each order (its largest error), or one for all of them (their root of the sum of squares). */
 void hci_limit_add_torque_cones(hci_limit_build *b)
 {
     const hci_harmonic_system *s = b->of->field.system;
-    const bool is_one = b->of->minimise == HCI_MINIMISE_RMS;
-    const size_t none = b->cones;
-    size_t head = 0;
+    bool first = true;
     if (b->stage < HCI_STAGE_RIPPLE || hci_limit_is_swing(b)) return;
     if (b->stage == HCI_STAGE_COPPER && b->of->has_ripple) return;
-    for (size_t k = has_mean_row(s) ? 1 : 0; k < s->rows; k += 2) {
-        if (!is_reached(s, k, 2)) continue;
-        if (b->cones == none || !is_one) head = begin_cone(b);
-        add_torque_row(b, k);
-        add_torque_row(b, k + 1);
-        b->cone[b->cones - 1] = b->rows - head;
-        if (b->cones > none + 1 && is_idle(b, head)) {
-            b->rows = head;
-            --b->cones;
-        }
+    if (b->of->minimise == HCI_MINIMISE_RMS) add_all_orders(b);
+    for (size_t k = has_mean_row(s) ? 1 : 0; k < s->rows && b->of->minimise == HCI_MINIMISE_WORST; k += 2) {
+        if (!is_order_reached(b, k)) continue;
+        add_order(b, k, first);
+        first = false;
     }
 }
 
@@ -188,7 +209,7 @@ void hci_limit_add_orders(hci_limit_build *b)
     if (b->stage >= HCI_STAGE_RIPPLE && first == 1 && p->has_mean) add_equation(b, 0);
     if (b->stage < HCI_STAGE_COPPER || !p->has_ripple) return;
     for (size_t k = first; k < s->rows; k += 2) {
-        if (!is_reached(s, k, 2)) continue;
+        if (!is_order_reached(b, k)) continue;
         add_equation(b, k);
         add_equation(b, k + 1);
     }

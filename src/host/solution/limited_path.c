@@ -28,6 +28,7 @@ enum {
 #define HELD          0.25 /* share of the promised gain that a step must make for a longer one */
 #define SETTLING      1e-2 /* the same for the last step, which brings peaks within their limits */
 #define POLISH        0.1  /* of that distance, for each further step */
+#define POLISHED      5e-8 /* share of the torque; an error of the mean below that leaves nothing to it */
 #define IDLE          0.5  /* of the worst order: another that stays below that acts on no step */
 #define LEAST_SHARE   0.1  /* of the way to an answer */
 #define SHRINK        0.3
@@ -57,6 +58,7 @@ typedef struct {
     int idle, halved;   /* steps since the least change was halved; how often the first currents were */
     int slow;           /* steps within a bound since one made more of the torque than LEFT */
     double tried_A;     /* bound of the step that is being corrected, see correct; 0: none is */
+    bool is_ended;      /* for want of further steps */
 } path;
 
 static double length(const path *p, const double *x)
@@ -117,10 +119,11 @@ static double overshoot(const hci_wishes *w, const hci_wave_list *i)
     for (size_t q = 0; q < p->grids && hci_limit_is_bent(&p->field); ++q) {
         const hci_limit_grid *grid = &p->grid[q];
         const double limit_V = hci_limit_of_point(p->bounds, grid->kind, grid->phase) * (1.0 + p->widened);
-        for (size_t k = 0; grid->kind == HCI_POINT_VOLTAGE && k < grid->samples; ++k)
-            most = fmax(most, fabs(hci_limit_link_V(&p->field, grid->phase, grid->step_rad * (double)k, i)) /
-                                      limit_V -
-                                  1.0);
+        const bool is_voltage = grid->kind == HCI_POINT_VOLTAGE || grid->kind == HCI_POINT_VECTOR;
+        for (size_t k = 0; is_voltage && k < grid->samples; ++k) {
+            const hci_limit_point at = {grid->kind, grid->phase, grid->step_rad * (double)k, 0.0};
+            most = fmax(most, fabs(hci_limit_link_V(&p->field, &at, i)) / limit_V - 1.0);
+        }
     }
     return most;
 }
@@ -310,7 +313,7 @@ static bool goes_on(const path *p)
 static hci_status settle_at(path *p, double radius_A, bool is_coarse, hci_note *note)
 {
     p->wishes->is_coarse = is_coarse;
-    p->wishes->is_far = p->wishes->is_hard = false;
+    p->wishes->is_far = false;
     memcpy(p->from, p->best, p->n * sizeof *p->from);
     p->radius_A = radius_A;
     return step(p, note);
@@ -354,6 +357,13 @@ static hci_status polish_once(path *p, double radius_A, account *said, hci_note 
     return status == HCI_ERROR_MEMORY ? out_of_memory(note) : HCI_OK;
 }
 
+/* A voltage that is not linear has to be within its limit more closely than that. */
+static bool is_polished(const path *p)
+{
+    const hci_limit_program *w = &p->wishes->program;
+    return !hci_limit_is_bent(&w->field) && p->merit.mean_error_Nm < POLISHED * w->scale_Nm;
+}
+
 /* The last step leaves an error of the square of its length in the true torque: further ones, each within
  * less. */
 static hci_status polish(path *p, hci_note *note)
@@ -367,7 +377,7 @@ static hci_status polish(path *p, hci_note *note)
     status = judge(p, &ignored, note);
     p->wishes->is_kept = true;
     p->wishes->kept_Nm = said.minimised_Nm;
-    for (int k = 0; k < POLISHES && !status; ++k)
+    for (int k = 0; k < POLISHES && !status && !is_polished(p); ++k)
         status = polish_once(p, radius_A *= POLISH, &said, note);
     p->wishes->is_kept = false;
     if (!status) give_best(p, &said);
@@ -414,7 +424,8 @@ static hci_status iterate(path *p, hci_note *note)
     p->share = 1.0;
     for (; has_steps(p, k) && goes_on(p) && !status; ++k, ++p->wishes->steps)
         status = advance(p, note);
-    p->wishes->is_ended = p->wishes->is_ended || (!has_steps(p, k) && goes_on(p));
+    p->is_ended = !has_steps(p, k) && goes_on(p);
+    p->wishes->is_ended = p->wishes->is_ended || p->is_ended;
     s->newton_steps += (size_t)k;
     s->newton_converged = !p->wishes->is_ended;
     s->newton_change = p->change;
@@ -433,7 +444,7 @@ hci_status hci_limited_path_follow(hci_wishes *wishes, double *from, hci_note *n
 {
     path p = {.wishes = wishes, .n = 2 * wishes->set.count, .from = from};
     hci_status status = is_linear(wishes) ? step(&p, note) : iterate(&p, note);
-    if (!status && p.radius_A > 0.0) status = settle(&p, note);
+    if (!status && p.best && (p.radius_A > 0.0 || p.is_ended)) status = settle(&p, note);
     end(&p);
     return status;
 }

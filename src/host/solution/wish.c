@@ -49,26 +49,6 @@ static bool tells_angles(const hci_wishes *l, const hci_limit_grid *g, const dou
     return g->kind != HCI_POINT_TORQUE || range[1] - range[0] > FLAT * l->program.scale_Nm;
 }
 
-/* The grids of the line voltages where the voltage is limited to a circle and all three are there, else NULL.
- */
-static const hci_limit_grid *circle_of(const hci_limit_program *p)
-{
-    const hci_limit_grid *first = NULL;
-    size_t count = 0;
-    for (size_t q = p->grids; q-- > 0;)
-        if (p->grid[q].kind == HCI_POINT_VOLTAGE) first = &p->grid[q], ++count;
-    return hci_limit_is_circle(&p->field) && count == 3 ? first : NULL;
-}
-
-/* The peaks of the voltage vector beyond the circle, each as a limit in its direction. */
-static hci_status add_vectors(hci_wishes *l, const hci_limit_optimum *o)
-{
-    hci_limit_program *p = &l->program;
-    const hci_limit_grid *grid = circle_of(p);
-    const double limit_V = p->bounds->line_V * (1.0 + p->widened) * (1.0 - HCI_LIMIT_MARGIN);
-    return grid ? hci_limit_vector_peaks(&p->field, grid, o->x, limit_V, &p->points) : HCI_OK;
-}
-
 /* Adds the peaks of an optimum beyond a limit; *added: how many. */
 static hci_status add_peaks(hci_wishes *l, hci_limit_stage stage, const hci_limit_optimum *o, size_t *added,
                             hci_note *note)
@@ -84,7 +64,6 @@ static hci_status add_peaks(hci_wishes *l, hci_limit_stage stage, const hci_limi
         if (!status && stage >= HCI_STAGE_RIPPLE && tells_angles(l, &p->grid[q], range))
             hci_limit_grid_thin(&p->grid[q], o->x, range, IDLE);
     }
-    if (!status) status = add_vectors(l, o);
     if (stage == HCI_STAGE_FIT) p->widened = 0.0;
     *added = p->points.count - before;
     return status ? out_of_memory(note) : HCI_OK;
@@ -98,6 +77,12 @@ static int rounds_of(const hci_wishes *l)
     return l->is_coarse ? COARSE_ROUNDS : MOST_ROUNDS;
 }
 
+/* While the currents come to rest by themselves, which they do not where each answer is a little off. */
+static bool needs_precision(const hci_wishes *l)
+{
+    return l->is_coarse && !l->is_far && !(l->program.radius_A > 0.0);
+}
+
 /* One more round; where rounding spoils it the one before stays, unsettled, and *goes_on is false. */
 static hci_status try_round(hci_wishes *l, hci_limit_stage stage, hci_limit_optimum *o, bool *goes_on,
                             hci_note *note)
@@ -107,7 +92,8 @@ static hci_status try_round(hci_wishes *l, hci_limit_stage stage, hci_limit_opti
     hci_note ignored = {{0}};
     if (hci_limit_points_fill(&l->program.field, &l->program.points)) return out_of_memory(note);
     const hci_status status = hci_limit_stage_solve(
-        &l->program, stage, l->is_coarse ? NULL : hci_limit_newton, &next, is_first ? note : &ignored);
+        &l->program, stage, l->is_coarse && !needs_precision(l) ? NULL : hci_limit_newton, &l->rest[stage],
+        &next, is_first ? note : &ignored);
     *goes_on = is_first || (status != HCI_ERROR_NUMERIC && !next.is_infeasible);
     hci_memory_free(*goes_on ? o->x : next.x);
     if (!*goes_on) return HCI_OK;
@@ -120,9 +106,7 @@ static hci_status try_round(hci_wishes *l, hci_limit_stage stage, hci_limit_opti
 static double step_rad(const hci_limit_program *p, const hci_limit_point *at)
 {
     for (size_t q = 0; q < p->grids; ++q)
-        if (p->grid[q].kind == (at->kind == HCI_POINT_VECTOR ? HCI_POINT_VOLTAGE : at->kind) &&
-            p->grid[q].phase == at->phase)
-            return p->grid[q].step_rad;
+        if (p->grid[q].kind == at->kind && p->grid[q].phase == at->phase) return p->grid[q].step_rad;
     return 0.0;
 }
 
@@ -152,17 +136,11 @@ hci_status hci_wish_forget(hci_wishes *l, hci_note *note)
         if (is_repeated(p, k)) continue;
         const double limit = hci_limit_of_point(p->bounds, at->kind, at->phase) * (1.0 + p->widened),
                      *row = hci_limit_points_row(&p->points, k);
-        if (at->kind == HCI_POINT_TORQUE || fabs(row[n] + hci_vector_dot(n, row, l->x)) >= NEAR * limit)
+        if (at->kind == HCI_POINT_TORQUE || fabs(hci_limit_value(at->kind, n, row, l->x)) >= NEAR * limit)
             hci_limit_points_keep(&p->points, k, kept++);
     }
     hci_limit_points_cut(&p->points, kept);
     return HCI_OK;
-}
-
-/* While the currents come to rest by themselves, which they do not where each answer is a little off. */
-static bool needs_precision(const hci_wishes *l)
-{
-    return l->is_coarse && !l->is_far && !(l->program.radius_A > 0.0);
 }
 
 /* Whether peaks no longer change much of the mean or the ripple. */

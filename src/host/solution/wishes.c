@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/solution/limit_newton.h"
 #include "host/solution/wish.h"
 
 enum { MOST_SLACKS = 4 }; /* of tenfold room for the least copper */
@@ -320,6 +321,8 @@ void hci_wishes_release(hci_wishes *wishes)
 {
     hci_wishes_program_release(wishes);
     hci_limit_points_release(&wishes->program.points);
+    for (int stage = 0; stage <= HCI_STAGE_COPPER; ++stage)
+        hci_limit_rest_release(&wishes->rest[stage]);
     hci_component_set_release(&wishes->set);
     hci_memory_free(wishes->current.wave);
     hci_memory_free(wishes->x);

@@ -112,6 +112,14 @@ static hci_status add_currents(hci_wishes *l, hci_note *note)
     return status;
 }
 
+/* Whether it is the size of the voltage vector that is limited, which of an open phase there is not. */
+static bool limits_vector(const hci_wishes *l)
+{
+    const hci_bounds *b = l->of->bounds;
+    return b->modulation == HCI_MODULATION_CIRCLE && hci_bounds_drive_pair(b, 0) &&
+           hci_bounds_drive_pair(b, 1) && hci_bounds_drive_pair(b, 2);
+}
+
 static hci_status add_voltages(hci_wishes *l, hci_note *note)
 {
     int pairs;
@@ -119,21 +127,42 @@ static hci_status add_voltages(hci_wishes *l, hci_note *note)
     hci_status status = HCI_OK;
     if (!(l->of->bounds->line_V < HUGE_VAL)) return HCI_OK;
     status = find_symmetry(l, HCI_POINT_VOLTAGE, &pairs, &share, note);
-    if (hci_limit_is_circle(&l->program.field)) pairs = 3;
+    if (!status && limits_vector(l)) /* phases that are alike turn it by a third of a turn */
+        return add_grid(l, HCI_POINT_VECTOR, 0, top_of_voltage(l), pairs == 1 ? share / 3.0 : share, note);
     for (int pair = 0; pair < pairs && !status; ++pair)
         if (hci_bounds_drive_pair(l->of->bounds, pair))
             status = add_grid(l, HCI_POINT_VOLTAGE, pair, top_of_voltage(l), share, note);
     return status;
 }
 
-static hci_status make_grids(hci_wishes *l, hci_note *note)
+/* The share of a period after which the torque repeats: all orders are multiples of one. */
+static double share_of_torque(const hci_wishes *l)
 {
     const hci_harmonic_system *s = &l->system;
+    size_t common = 0;
+    for (size_t k = 0; k < s->order_count; ++k) {
+        size_t order = (size_t)(s->order[k] * (double)l->program.field.turns + 0.5);
+        while (order > 0) {
+            const size_t left = common % order;
+            common = order;
+            order = left;
+        }
+    }
+    return common > 0 ? 1.0 / (double)common : 1.0;
+}
+
+static hci_status add_torque(hci_wishes *l, hci_note *note)
+{
+    const hci_harmonic_system *s = &l->system;
+    const double top = s->order_count ? s->order[s->order_count - 1] : 1.0;
+    return add_grid(l, HCI_POINT_TORQUE, 0, top, share_of_torque(l), note);
+}
+
+static hci_status make_grids(hci_wishes *l, hci_note *note)
+{
     hci_status status = add_currents(l, note);
     if (!status) status = add_voltages(l, note);
-    if (!status && l->program.minimise == HCI_MINIMISE_PEAK_TO_PEAK)
-        status =
-            add_grid(l, HCI_POINT_TORQUE, 0, s->order_count ? s->order[s->order_count - 1] : 1.0, 1.0, note);
+    if (!status && l->program.minimise == HCI_MINIMISE_PEAK_TO_PEAK) status = add_torque(l, note);
     return status;
 }
 

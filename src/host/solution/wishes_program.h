@@ -25,8 +25,9 @@ typedef struct {
     hci_voltage_model voltage;
     hci_wave_list current; /* where voltage and torque are made linear */
     hci_limit_program program;
-    double *x;      /* S and C of each component, A: what was found */
-    size_t rounds;  /* programs solved so far */
+    hci_limit_rest rest[HCI_STAGE_COPPER + 1]; /* of each stage the last one */
+    double *x;                                 /* S and C of each component, A: what was found */
+    size_t rounds;                             /* programs solved so far */
     size_t steps;   /* in which the torque was made linear so far, of those before too that it goes on from */
     bool is_ended;  /* for so many of them */
     bool is_coarse; /* the torque is still being made linear: peaks may stay for the next step */

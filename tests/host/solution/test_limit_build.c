@@ -46,7 +46,7 @@ static void test_rows_alone_find_no_room(void)
 
 static void test_each_part_may_find_no_room(void)
 {
-    for (int k = 0; k < 4; ++k) {
+    for (int k = 0; k < 5; ++k) {
         build.width = 3;
         hci_memory_fail_after(k);
         TEST_ASSERT_NULL(hci_limit_row_add(&build));

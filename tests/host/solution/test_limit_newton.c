@@ -29,28 +29,29 @@ static int found, left;
 
 /* From −2 x, which keeps no limit. */
 static hci_status begin_far_off(const hci_limit_build *build, const hci_cone_answer *answer,
-                                hci_limit_optimum *optimum)
+                                hci_limit_rest *last, hci_limit_optimum *optimum)
 {
     const hci_limit_optimum before = *optimum;
+    if (!answer) return HCI_OK;
     hci_cone_answer far_off = *answer;
     double *x = hci_memory_new(build->n, sizeof *x);
     for (size_t j = 0; j < build->n; ++j)
         x[j] = 0.3 - 2.0 * answer->x[j];
     far_off.x = x;
-    const hci_status status = newtons_method(build, &far_off, optimum);
+    const hci_status status = newtons_method(build, &far_off, last, optimum);
     hci_memory_free(x);
     if (!optimum->is_settled) TEST_ASSERT_EQUAL_MEMORY(&before, optimum, sizeof before);
     return status;
 }
 
-hci_status hci_limit_newton(const hci_limit_build *build, const hci_cone_answer *answer,
+hci_status hci_limit_newton(const hci_limit_build *build, const hci_cone_answer *answer, hci_limit_rest *last,
                             hci_limit_optimum *optimum)
 {
-    const hci_status status = mode == USED      ? newtons_method(build, answer, optimum)
-                              : mode == FAR_OFF ? begin_far_off(build, answer, optimum)
+    const hci_status status = mode == USED      ? newtons_method(build, answer, last, optimum)
+                              : mode == FAR_OFF ? begin_far_off(build, answer, last, optimum)
                                                 : HCI_OK;
     found += optimum->is_settled;
-    left += !optimum->is_settled;
+    left += answer && !optimum->is_settled;
     return status;
 }
 
@@ -118,12 +119,31 @@ static void compare(int how, int *with, int *without)
     }
 }
 
-static void test_rounds_alone_end_at_the_same_optimum(void)
+static void compare_with_rounds(void)
 {
     int with, without;
     compare(REFUSED, &with, &without);
     TEST_ASSERT_GREATER_THAN(10, with);
     TEST_ASSERT_EQUAL(0, without);
+}
+
+static void test_rounds_alone_end_at_the_same_optimum(void)
+{
+    compare_with_rounds();
+}
+
+/* Two ends of the torque's range that move, each with its peaks. */
+static void test_the_smallest_swing(void)
+{
+    options.minimise = HCI_MINIMISE_PEAK_TO_PEAK;
+    compare_with_rounds();
+}
+
+/* The vector of the voltage bends across its direction. */
+static void test_a_vector_in_a_circle(void)
+{
+    options.limits.modulation = HCI_MODULATION_CIRCLE;
+    compare_with_rounds();
 }
 
 static void test_a_beginning_far_off_leaves_the_answer(void)
@@ -137,6 +157,8 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_rounds_alone_end_at_the_same_optimum);
+    RUN_TEST(test_the_smallest_swing);
+    RUN_TEST(test_a_vector_in_a_circle);
     RUN_TEST(test_a_beginning_far_off_leaves_the_answer);
     return UNITY_END();
 }
