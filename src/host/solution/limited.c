@@ -207,6 +207,7 @@ static hci_status take(hci_wishes *w, const hci_solution *without, hci_answer *a
         return HCI_OK;
     }
     if (hci_limited_set_is_cut(a, w)) tell_cut(w, a);
+    if (w->is_ended) w->cost.pull = HUGE_VAL;
     hci_limits_take_gains(&w->cost, s);
     status = give(w, a, note);
     return status ? status : hci_linear_describe(w->of->task, a, s, note);
@@ -225,12 +226,13 @@ static bool is_worth_more(const hci_wishes *w, const hci_answer *a)
 /* The work of an answer is bounded, and these may not be the best currents. */
 static void tell_end(const hci_wishes *w)
 {
+    const hci_solve_options *o = w->of->options;
     hci_note_add(&w->of->solution->remark,
                  "within limits the steps, in which the torque is made linear, ended before they came to "
                  "rest: these are "
-                 "the best currents of %zu, and others may be better; fewer components (--harmonics) come to "
-                 "rest sooner",
-                 w->steps);
+                 "the best currents of %zu, others may be better, and what a limit costs is not known; fewer "
+                 "components (%s) come to rest sooner",
+                 w->steps, o->choose_at_most > 0 ? "a smaller K of --auto" : "--harmonics");
 }
 
 /* w->x: the best currents of all components. Where fewer did not come to rest by themselves, more hardly do.
