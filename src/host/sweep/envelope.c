@@ -18,7 +18,7 @@ enum { MOST_TRIALS = 20, MOST_FAILURES = 4, MOST_STEPS = 30, SPARE_ORDERS = 8 };
 #define AIM       0.985 /* share of the ripple allowed that is looked for */
 #define FIRST_CUT 0.9   /* of the largest with any ripple: what is tried first */
 #define EDGE      0.04  /* share of the bracket that each step takes off at least */
-#define NOTHING   1e-3  /* share of the largest torque that is none */
+#define NOTHING   1e-3  /* share of the largest torque, or torque constant, that is none */
 
 /* ---- the largest torque ---- */
 
@@ -63,7 +63,7 @@ static void solve_largest(const hci_machine_data *machine, const hci_solve_optio
     }
     if (a->verdict == HCI_GRID_FAILED) return;
     a->verdict = HCI_GRID_FAILED;
-    hci_note_set(&a->reason, HCI_ERROR_NUMERIC, "the limits leave the torque without end");
+    hci_note_set(&a->reason, HCI_ERROR_NUMERIC, "no torque was found that is beyond the limits");
 }
 
 /* ---- with no more ripple than is allowed ---- */
@@ -262,6 +262,18 @@ static void fill(const hci_grid_request *r, const hci_solve_options *o, double f
         narrow(&s, row);
 }
 
+/* The torque of a sine of an amplitude; where the back-EMF has next to no fundamental, of that in its largest
+ * harmonic. */
+static double torque_about_Nm(const hci_machine_data *m, double amplitude_A)
+{
+    const hci_machine *x = &m->model;
+    const double of_sine = hci_machine_torque_constant(m);
+    double most = 0.0;
+    for (size_t k = 0; k < x->back_emf_count; ++k)
+        most = fmax(most, 1.5 * hci_amplitude(x->back_emf[k].sine, x->back_emf[k].cosine));
+    return amplitude_A * (of_sine > NOTHING * most ? of_sine : most);
+}
+
 void hci_grid_envelope(const hci_grid_request *r, const hci_grid_point *p, hci_grid_row *row)
 {
     hci_target_order none = {{0.0, 0.0, 1.0}, 1.0};
@@ -278,5 +290,5 @@ void hci_grid_envelope(const hci_grid_request *r, const hci_grid_point *p, hci_g
                       "--limit-current, --limit-rms or --limit-copper, or max_current in machine.csv",
                       row);
     else
-        fill(r, &o, FIRST * hci_machine_torque_constant(r->machine) * amplitude_within(&b), row);
+        fill(r, &o, FIRST * torque_about_Nm(r->machine, amplitude_within(&b)), row);
 }

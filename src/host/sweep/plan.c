@@ -28,6 +28,11 @@ hci_status hci_grid_span_find(const hci_grid_request *r, hci_grid_span *span, hc
     *span = (hci_grid_span){s.plain_amplitude_A, s.peak_phase_current_A, s.loss_to_plain};
     hci_solution_release(&s);
     if (span->peak_A > 0.0 && span->plain_A > 0.0) return HCI_OK;
+    if (span->peak_A > 0.0 && mean.torque_Nm.cosine > 0.0)
+        return hci_note_set(
+            note, HCI_ERROR_ARGUMENT,
+            "a trade-off is beside the plain sine, and in this machine a sine makes no torque: its back-EMF "
+            "has no fundamental; expected --map with --limit-current");
     return hci_note_set(
         note, HCI_ERROR_ARGUMENT,
         "a trade-off is of the current that a torque takes, and this one takes none; expected a "

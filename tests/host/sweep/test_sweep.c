@@ -140,6 +140,28 @@ static void test_envelope_of_the_copper(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-5, 1.5 * K_E * sqrt(8.0), solve(point_at(NAN, 10.0)).most.mean_Nm);
 }
 
+/* Order 5 is what the currents make torque of; a sine makes none, and beside it nothing can be said. */
+static void test_without_a_fundamental(void)
+{
+    hci_note note = {{0}};
+    hci_grid_span span;
+    emf[0] = (hci_wave){5.0, -1, K_E, 0.0};
+    component[0] = (hci_component){5.0, -1};
+    name[0] = HCI_SET_NEG;
+    const hci_grid_row row = solve(point_at(NAN, 5.0));
+    request.kind = HCI_GRID_TRADE_OFF;
+    request.torque_Nm = (hci_grid_axis){value, 1};
+    value[0] = 1.0;
+    const hci_status status = hci_grid_span_find(&request, &span, &note);
+    component[0] = (hci_component){1.0, 1};
+    name[0] = HCI_SET_POS;
+    TEST_ASSERT_EQUAL(HCI_GRID_REACHED, row.verdict);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-5 * K_E * I_A, 1.5 * K_E * I_A, row.most.mean_Nm);
+    TEST_ASSERT_FALSE(row.sine.mean_Nm > 0.0);
+    TEST_ASSERT_EQUAL(HCI_ERROR_ARGUMENT, status);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(note.text, "a sine makes no torque"), note.text);
+}
+
 static void test_an_envelope_needs_a_limit_of_the_current(void)
 {
     const hci_grid_point point = point_at(NAN, 10.0);
@@ -395,6 +417,7 @@ int main(void)
     RUN_TEST(test_envelope_of_circle_and_ellipse);
     RUN_TEST(test_envelope_of_the_voltage_alone);
     RUN_TEST(test_envelope_of_the_copper);
+    RUN_TEST(test_without_a_fundamental);
     RUN_TEST(test_an_envelope_needs_a_limit_of_the_current);
     RUN_TEST(test_a_speed_that_no_current_reaches);
     RUN_TEST(test_the_largest_torque_with_little_ripple);
