@@ -48,8 +48,8 @@ static const cli_option OPTIONS[] = {
     [SWEEP_AUTO] = {"auto", 0, CLI_COUNT_OPTIONAL, "K",
                     .help = "choose the components (default), at most K of them", .low = 1.0, .high = 1e4},
     [SWEEP_MINIMISE] = {"minimise", 0, CLI_CHOICE, "WHAT",
-                        .help = "ripple that is made smallest where it cannot be as wanted; --trade-off, and "
-                                "--envelope with surface magnets, without it: peak-to-peak; else",
+                        .help = "ripple that is made smallest where it cannot be as wanted; --trade-off and "
+                                "--envelope without it: peak-to-peak; else",
                         .choices = cli_minimise_choices},
     [SWEEP_TEMPERATURE] = {"temperature", 0, CLI_NUMBER, "C",
                            .help = "of the magnets, for magnet_temperature in effects.csv", .low = -273.15,

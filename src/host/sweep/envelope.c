@@ -202,20 +202,6 @@ static void solve_sine(const hci_grid_request *r, const hci_solve_options *optio
 
 /* ---- all of it ---- */
 
-/* Whether the torque is linear in the current. */
-static bool is_linear(const hci_grid_request *r)
-{
-    const hci_solve_options *o = r->options;
-    const double temperature_C = o->at_temperature ? o->temperature_C : (double)NAN;
-    hci_quadratic_model q;
-    hci_note ignored = {{0}};
-    const hci_status status =
-        hci_quadratic_model_make(&r->machine->model, o->effects, temperature_C, &q, &ignored);
-    const bool is = !status && q.machine.slope_count == 0 && !q.higher.effects;
-    hci_quadratic_model_release(&q);
-    return is;
-}
-
 /* Whether the plain sine is one of the currents that may be used. */
 static bool has_sine(const hci_solve_options *o)
 {
@@ -281,7 +267,7 @@ void hci_grid_envelope(const hci_grid_request *r, const hci_grid_point *p, hci_g
     hci_solve_options o = hci_grid_options_of(r, p, &target);
     hci_bounds b;
     hci_note note = {{0}};
-    if (o.minimise == HCI_MINIMISE_AUTO && is_linear(r)) o.minimise = HCI_MINIMISE_PEAK_TO_PEAK;
+    if (o.minimise == HCI_MINIMISE_AUTO) o.minimise = HCI_MINIMISE_PEAK_TO_PEAK;
     if (hci_bounds_make(r->machine, &o, 0.0, &b, &note))
         hci_grid_fail(p, note.text, row);
     else if (!(amplitude_within(&b) < HUGE_VAL))
