@@ -559,9 +559,9 @@ static void begin_hessian(newton *w, double *f)
     const hci_limit_build *b = w->near;
     memset(w->hessian, 0, w->n * w->n * sizeof *w->hessian);
     for (size_t j = 0; j < w->n; ++j) {
-        const bool is_bent = b->stage != HCI_STAGE_MEAN && j < w->coordinates;
-        w->hessian[j * (w->n + 1)] = is_bent ? b->p[j * (w->n + 1)] : PULL;
-        f[j] = b->c[j] + (is_bent ? b->p[j * (w->n + 1)] * w->x[j] : 0.0);
+        const bool is_copper = b->stage == HCI_STAGE_COPPER && j < w->coordinates;
+        w->hessian[j * (w->n + 1)] = is_copper ? b->p[j * (w->n + 1)] : PULL;
+        f[j] = b->c[j] + (is_copper ? b->p[j * (w->n + 1)] * w->x[j] : 0.0);
     }
 }
 
