@@ -192,12 +192,20 @@ void hci_dataset_release(hci_dataset *b)
     memset(b, 0, sizeof *b);
 }
 
+/* Of a holding test, whose readings are currents against no torque, that which the current makes. */
+static double torque_of_run(const hci_dataset *b, size_t run)
+{
+    const hci_run_statistics *f = &b->samples.statistics[run];
+    const bool holds = b->regression.runs[run].torque_source == HCI_TORQUE_HOLDING;
+    return hypot(f->rms_torque_Nm, holds ? b->regression.declared_constant * f->current_A : 0.0);
+}
+
 hci_dataset_range hci_dataset_range_of(const hci_dataset *b)
 {
     hci_dataset_range x = {0.0, 0.0, 0.0};
     for (size_t r = 0; r < b->samples.run_count; ++r) {
         const hci_run_statistics *f = &b->samples.statistics[r];
-        x.torque_Nm = fmax(x.torque_Nm, f->rms_torque_Nm);
+        x.torque_Nm = fmax(x.torque_Nm, torque_of_run(b, r));
         x.current_A = fmax(x.current_A, f->current_A);
         x.speed_rad_per_s = fmax(x.speed_rad_per_s, fabs(f->mean_speed_rad_per_s));
     }

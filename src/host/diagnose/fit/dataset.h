@@ -27,7 +27,7 @@ hci_status hci_dataset_make(const hci_machine_data *machine, const hci_effects *
                             const hci_runs *runs, hci_dataset *dataset, hci_note *note);
 void hci_dataset_release(hci_dataset *dataset);
 
-/* The largest rms torque, rms current and mean speed of all runs. */
+/* The largest rms torque (of a holding test that of its current), rms current and mean speed of all runs. */
 typedef struct {
     double torque_Nm, current_A, speed_rad_per_s;
 } hci_dataset_range;
