@@ -107,6 +107,22 @@ static void test_the_combinations(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.0, 0.0, share_of("current_sign")); /* there is no recording */
 }
 
+/* With one pole pair an electrical order is a mechanical one. */
+static void test_one_pole_pair_has_no_orders_of_its_own(void)
+{
+    static const char *const NAMES[] = {"emf_orders_mechanical", "cogging_orders_mechanical",
+                                        "inductance_per_electrical_radian"};
+    for (size_t k = 0; k < sizeof NAMES / sizeof *NAMES; ++k) {
+        const check_error *e = HCI_CHECK_ERRORS;
+        while (strcmp(e->name, NAMES[k]) != 0)
+            ++e;
+        data.value[CHECK_pole_pairs] = 4.0;
+        TEST_ASSERT_TRUE_MESSAGE(hci_check_error_applies(e, &data), NAMES[k]);
+        data.value[CHECK_pole_pairs] = 1.0;
+        TEST_ASSERT_FALSE_MESSAGE(hci_check_error_applies(e, &data), NAMES[k]);
+    }
+}
+
 static void test_a_correct_motor_is_most_probably_correct(void)
 {
     motor_record(&data, MOTOR_i_d, MOTOR_i_q, true);
@@ -218,6 +234,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_probabilities_sum_to_one);
     RUN_TEST(test_the_combinations);
+    RUN_TEST(test_one_pole_pair_has_no_orders_of_its_own);
     RUN_TEST(test_a_correct_motor_is_most_probably_correct);
     RUN_TEST(test_an_error_that_nothing_sees_costs_its_prior);
     RUN_TEST(test_errors_that_look_alike_share_the_probability);

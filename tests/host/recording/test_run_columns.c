@@ -162,6 +162,13 @@ static void test_without_angle_or_voltages_it_is_refused(void)
     TEST_ASSERT_EQUAL(HCI_OK, find("time_s,va_V,vb_V,vc_V\n0,1,1,1\n"));
 }
 
+/* Voltages tell the angle of a shaft that turns, whatever a column beside them is. */
+static void test_an_angle_beside_voltages_is_not_asked_for(void)
+{
+    expect_refused("id_A,iq_A,torque_Nm,encoder_x\n0,1,1,7\n", "encoder_x");
+    TEST_ASSERT_EQUAL(HCI_OK, find("time_s,va_V,vb_V,vc_V,encoder_x\n0,1,1,1,7\n"));
+}
+
 /* ---- three phases */
 
 /* Of a star without neutral: the third current makes the sum 0. */
@@ -353,6 +360,7 @@ int main(void)
     RUN_TEST(test_what_nobody_read_is_told);
     RUN_TEST(test_taken_values_are_the_callers);
     RUN_TEST(test_without_angle_or_voltages_it_is_refused);
+    RUN_TEST(test_an_angle_beside_voltages_is_not_asked_for);
     RUN_TEST(test_the_third_phase_makes_the_sum_zero);
     RUN_TEST(test_phases_of_line_voltages);
     RUN_TEST(test_which_voltages_are_taken);
