@@ -13,6 +13,7 @@
 #include "host/base/quote.h"
 #include "host/drive/measured_loop.h"
 #include "host/drive/turn_samples.h"
+#include "host/drive/voltage_fade.h"
 
 /* Orders are kept whose current is more than this share of the largest current, or whose voltage is more than
  * this share of the fundamental's. */
@@ -24,7 +25,8 @@ typedef struct {
     const hci_loop_task *task;
     hci_loop_set *set;
     hci_note *note;
-    hci_machine_model machine, own;
+    hci_machine_model machine, own; /* as the loop and its decoupling know it */
+    hci_machine_model plant;        /* with its effects, as it is driven */
     hci_turn_samples level[HCI_LOOP_MOST_LEVELS];
     size_t order[HCI_LOOP_MOST_ORDERS], count; /* kept, in periods of all turns */
     double voltage_end;                        /* electrical */
@@ -60,13 +62,15 @@ static hci_status make_samples(maker *m)
 {
     const hci_drive_data *d = m->task->drive;
     hci_status status = hci_machine_model_make(m->task->machine, &m->machine, m->note);
+    if (!status)
+        status = hci_machine_model_make_whole(m->task->machine, m->task->effects, &m->plant, m->note);
     if (!status && d->decoupling == HCI_DECOUPLING_CONSTANT)
         status = hci_machine_model_make_constant(m->task->machine, &m->own, m->note);
     const hci_machine_model *own = d->decoupling == HCI_DECOUPLING_NONE       ? NULL
                                    : d->decoupling == HCI_DECOUPLING_CONSTANT ? &m->own
                                                                               : &m->machine;
     for (size_t k = 0; k < m->task->level_count && !status; ++k)
-        status = hci_turn_samples_make(&m->machine, own, &m->task->levels[k], &m->level[k], m->note);
+        status = hci_turn_samples_make(&m->plant, own, &m->task->levels[k], &m->level[k], m->note);
     for (size_t k = 1; k < m->task->level_count && !status; ++k)
         if (m->level[k].turns != m->level[0].turns)
             status = hci_note_set(m->note, HCI_ERROR_ARGUMENT,
@@ -235,48 +239,29 @@ static hci_status fill_loop(maker *m)
 
 /* ---- where it ends ---- */
 
-enum { ENDS_ANGLES = 1024 };
-
-/* Current and voltage of a level over a turn, of the orders up to one. */
-typedef struct {
-    hci_turn_samples turn; /* with fewer samples, and without orders */
-    double memory[4][ENDS_ANGLES];
-} partial_turn;
-
-static void add_order(const maker *m, size_t level, size_t k, partial_turn *x)
-{
-    for (int v = 0; v < 4; ++v) {
-        const hci_harmonic h = m->level[level].order[v][k];
-        for (size_t j = 0; j < x->turn.samples; ++j) {
-            const double angle_rad =
-                2.0 * HCI_PI * (double)(k * j % x->turn.samples) / (double)x->turn.samples;
-            x->memory[v][j] += h.cosine * cos(angle_rad) + h.sine * sin(angle_rad);
-        }
-    }
-}
-
 /* Whether the levels are of negative torques alone, or more of them: those drive backward. */
 static bool drives_backward(const hci_loop_task *t)
 {
     return t->levels[0].torque_Nm + t->levels[t->level_count - 1].torque_Nm < 0.0;
 }
 
-/* The dc link that a speed needs, turning as the torque drives. */
-static double needed_V(const maker *m, const partial_turn *x, double speed_rad_per_s)
+/* The dc link that a level needs at a speed, turning as the torque drives. */
+static double needed_V(const maker *m, size_t level, double speed_rad_per_s)
 {
-    return hci_turn_samples_dc_link_V(&x->turn, m->machine.resistance_ohm, m->task->drive->modulation,
+    return hci_turn_samples_dc_link_V(&m->level[level], m->machine.resistance_ohm,
+                                      m->task->drive->modulation,
                                       drives_backward(m->task) ? -speed_rad_per_s : speed_rad_per_s);
 }
 
-/* Electrical speed up to which the voltage does; `beyond` where it does for that, too. */
-static double voltage_end(const maker *m, const partial_turn *x, double beyond)
+/* Electrical speed up to which the voltage does for a level; `beyond` where it does for that, too. */
+static double voltage_end(const maker *m, size_t level, double beyond)
 {
     const hci_drive_data *d = m->task->drive;
     const double there_V = d->dc_link_voltage_V * (1.0 - 2.0 * hci_drive_dead_share(d));
     double low = 0.0, high = beyond;
     for (int k = 0; k < 32; ++k) {
         const double speed = 0.5 * (low + high);
-        if (needed_V(m, x, speed) < there_V)
+        if (needed_V(m, level, speed) < there_V)
             low = speed;
         else
             high = speed;
@@ -284,37 +269,56 @@ static double voltage_end(const maker *m, const partial_turn *x, double beyond)
     return high < beyond ? low : beyond;
 }
 
-/* end: out, the speed up to which the voltage does for the orders up to each. */
-static void find_ends(const maker *m, size_t level, partial_turn *x, double end[HCI_LOOP_MOST_ORDERS])
+/* The level that the voltage does for up to the least speed, which is the end. */
+static size_t find_voltage_end(maker *m)
 {
     const double beyond = HCI_PI / m->task->drive->sample_s;
-    memset(x, 0, sizeof *x);
-    x->turn.turns = m->level[level].turns;
-    x->turn.samples = ENDS_ANGLES;
-    for (int v = 0; v < 4; ++v)
-        x->turn.value[v] = x->memory[v];
-    for (size_t k = 0; k < m->count; ++k) {
-        add_order(m, level, m->order[k], x);
-        end[k] = voltage_end(m, x, beyond);
+    size_t hardest = 0;
+    m->voltage_end = HUGE_VAL;
+    for (size_t l = 0; l < m->task->level_count; ++l) {
+        const double end = voltage_end(m, l, beyond);
+        if (!(end < beyond) || !(end < m->voltage_end)) continue;
+        m->voltage_end = end;
+        hardest = l;
     }
+    return hardest;
 }
 
-/* An order is whole as long as the voltage does for all up to it, or up to one above it: higher orders may
- * take voltage off the peaks. It is gone where those below it take all. */
-static void fill_level_ranges(maker *m, size_t level, partial_turn *x)
+/* The loop with one of its levels alone. waves: one for each order. */
+static hci_loop_f32 level_of(const maker *m, size_t level, hci_loop_wave *waves)
 {
-    const double beyond = HCI_PI / m->task->drive->sample_s;
-    double end[HCI_LOOP_MOST_ORDERS];
-    find_ends(m, level, x, end);
-    m->voltage_end = fmin(m->voltage_end, end[m->count - 1] < beyond ? end[m->count - 1] : HUGE_VAL);
-    for (size_t k = m->count - 1; k-- > 0;)
-        end[k] = fmax(end[k], end[k + 1]);
-    for (size_t k = 1; k < m->count; ++k) {
-        hci_loop_range *range = &m->set->ranges[k];
-        if (!(end[k] < beyond)) continue;
-        range->whole_rad_per_s = fminf(range->whole_rad_per_s, (float)end[k]);
-        range->none_rad_per_s = fminf(range->none_rad_per_s, (float)fmax(end[k - 1], 1.02 * end[k]));
+    hci_loop_f32 loop = m->set->loop;
+    for (size_t k = 0; k < m->count; ++k)
+        waves[k] = m->set->waves[k * loop.levels + level];
+    loop.waves = waves;
+    loop.levels = 1;
+    loop.torque_low_Nm = loop.torque_high_Nm = (float)m->task->levels[level].torque_Nm;
+    return loop;
+}
+
+/* Times the end of the voltage, up to which is looked what orders are worth; and samples in an electrical
+ * turn that a drive has at least. */
+static const double LOOK = 4.0, LEAST_SAMPLES = 10.0;
+
+static hci_status end_by_voltage(maker *m)
+{
+    const size_t level = find_voltage_end(m);
+    const double sampled = 2.0 * HCI_PI / (LEAST_SAMPLES * m->task->drive->sample_s);
+    hci_loop_wave *waves = hci_memory_new(m->count, sizeof *waves);
+    float *memory = hci_memory_new(hci_loop_floats(&m->set->loop, HCI_LOOP_FEEDFORWARD), sizeof *memory);
+    m->set->voltage_rad_per_s = m->voltage_end / m->machine.table.pole_pairs;
+    if (waves && memory && isfinite(m->voltage_end)) {
+        const hci_loop_f32 loop = level_of(m, level, waves);
+        const hci_machine_model *known =
+            m->task->drive->decoupling == HCI_DECOUPLING_CONSTANT ? &m->own : &m->machine;
+        const hci_sampled_drive drive = {m->task->drive, &m->plant, known, &loop, memory};
+        hci_voltage_fade(&drive, m->voltage_end, fmin(fmax(LOOK * m->voltage_end, LOOK), sampled),
+                         drives_backward(m->task) ? -1 : 1, m->set->ranges);
     }
+    const hci_status status = waves && memory ? HCI_OK : hci_note_memory(m->note, NULL, "the voltage");
+    hci_memory_free(waves);
+    hci_memory_free(memory);
+    return status;
 }
 
 /* Electrical speed at which an order is the highest that the sampling does for. */
@@ -342,31 +346,27 @@ static double measured_end(const maker *m)
     return 2.0 * HCI_PI * d->response[d->response_count - 1].frequency_Hz / order;
 }
 
+/* What the sampling leaves. */
 static hci_status fill_ranges(maker *m)
 {
     const double p = m->machine.table.pole_pairs;
     hci_loop_set *set = m->set;
-    partial_turn *x = hci_memory_new(1, sizeof *x);
     set->ranges = hci_memory_new(m->count, sizeof *set->ranges);
-    if (!x || !set->ranges) {
-        hci_memory_free(x);
-        return hci_note_memory(m->note, NULL, "%zu orders", m->count);
-    }
-    m->voltage_end = HUGE_VAL;
+    if (!set->ranges) return hci_note_memory(m->note, NULL, "%zu orders", m->count);
     set->ranges[0] = (hci_loop_range){FLT_MAX, FLT_MAX};
     for (size_t k = 1; k < m->count; ++k)
         limit_range(m, k, &set->ranges[k]);
     set->sampled_rad_per_s = m->count > 1 ? 0.9 * sampled_end(m, m->count - 1) / p : HUGE_VAL;
-    for (size_t l = 0; l < m->task->level_count; ++l)
-        fill_level_ranges(m, l, x);
-    set->voltage_rad_per_s = m->voltage_end / p;
     set->measured_rad_per_s = measured_end(m) / p;
     set->loop.ranges = set->ranges;
-    set->loop.whole_rad_per_s = FLT_MAX;
-    for (size_t k = 0; k < m->count; ++k)
-        set->loop.whole_rad_per_s = fminf(set->loop.whole_rad_per_s, set->ranges[k].whole_rad_per_s);
-    hci_memory_free(x);
     return HCI_OK;
+}
+
+static void find_whole(hci_loop_set *set)
+{
+    set->loop.whole_rad_per_s = FLT_MAX;
+    for (uint32_t k = 0; k < set->loop.order_count; ++k)
+        set->loop.whole_rad_per_s = fminf(set->loop.whole_rad_per_s, set->ranges[k].whole_rad_per_s);
 }
 
 /* ---- points ---- */
@@ -429,6 +429,8 @@ static hci_status make(maker *m)
     if (!status) status = fill_loop(m);
     if (!status) status = fill_ranges(m);
     if (!status) status = choose_points(m);
+    if (!status) status = end_by_voltage(m);
+    if (!status) find_whole(m->set);
     if (!status) m->set->loop.crc32 = hci_loop_crc32(&m->set->loop);
     return status;
 }
@@ -446,6 +448,7 @@ hci_status hci_loop_set_make(const hci_loop_task *task, hci_loop_set *set, hci_n
         hci_turn_samples_release(&m->level[k]);
     hci_machine_model_release(&m->machine);
     hci_machine_model_release(&m->own);
+    hci_machine_model_release(&m->plant);
     hci_memory_free(m);
     return status;
 }

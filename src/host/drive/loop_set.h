@@ -2,6 +2,7 @@
 #ifndef HCI_SRC_HOST_DRIVE_LOOP_SET_H
 #define HCI_SRC_HOST_DRIVE_LOOP_SET_H
 
+#include "hci/effects/effect.h"
 #include "hci/host/drive/drive.h"
 #include "hci/loop.h"
 
@@ -14,6 +15,7 @@ typedef struct {
     size_t level_count;
     double max_error_A;     /* of the splines; 0: 2e-4 of the largest current */
     double speed_rad_per_s; /* mechanical; 0: the table is used as far as it goes */
+    const hci_effects *effects; /* of the machine, which the voltage is of too; NULL: none */
 } hci_loop_task;
 
 /* Start with {0}. */

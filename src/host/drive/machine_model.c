@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/machine/effect_winding.h"
 
 enum { POINTS_PER_TURN = 4096 };
 
@@ -67,20 +68,29 @@ static void take_means(hci_machine_model *m)
     }
 }
 
-hci_status hci_machine_model_make(const hci_machine_data *machine, hci_machine_model *m, hci_note *note)
+hci_status hci_machine_model_make_whole(const hci_machine_data *machine, const hci_effects *effects,
+                                        hci_machine_model *m, hci_note *note)
 {
     hci_plant_inductance given;
     hci_status status = need(machine->resistance_ohm, "resistance", "ohm", note);
     memset(m, 0, sizeof *m);
     if (!status) status = take_inductance(machine, &given, note);
+    if (!status && given.count == 0)
+        hci_effects_take_saliency(&machine->model, effects, &given.d_H, &given.q_H);
     if (!status) status = fill(&machine->model, &given, m, note);
     if (status) {
         hci_machine_model_release(m);
         return status;
     }
     m->resistance_ohm = machine->resistance_ohm;
+    m->effects = effects;
     take_means(m);
     return HCI_OK;
+}
+
+hci_status hci_machine_model_make(const hci_machine_data *machine, hci_machine_model *m, hci_note *note)
+{
+    return hci_machine_model_make_whole(machine, NULL, m, note);
 }
 
 hci_status hci_machine_model_make_constant(const hci_machine_data *machine, hci_machine_model *m,

@@ -5,6 +5,7 @@
 
 #include "hci/machine/frames.h"
 #include "host/base/memory.h"
+#include "host/machine/effect_winding.h"
 #include "host/numeric/fft.h"
 
 enum { SAMPLES_OF_A_TURN = 2048 };
@@ -12,7 +13,7 @@ enum { SAMPLES_OF_A_TURN = 2048 };
 /* ---- one angle ---- */
 
 /* Current and its slope by the electrical angle, in the plane. */
-static void current_at(const hci_loop_level *level, double theta_rad, double i[2], double slope[2])
+static void current_at(const hci_loop_level *level, double theta_rad, hci_plane_current *i)
 {
     double abc[3], sum[3] = {0.0, 0.0, 0.0}, one[3];
     hci_waves_at(level->waves, level->count, theta_rad, abc);
@@ -23,8 +24,8 @@ static void current_at(const hci_loop_level *level, double theta_rad, double i[2
         for (int s = 0; s < 3; ++s)
             sum[s] += one[s];
     }
-    hci_plane_from_abc(abc, i);
-    hci_plane_from_abc(sum, slope);
+    hci_plane_from_abc(abc, i->x);
+    hci_plane_from_abc(sum, i->slope);
 }
 
 /* (e + L'i)/p, what both the machine needs and a decoupling adds. */
@@ -42,26 +43,46 @@ static void put(hci_turn_samples *x, int first, size_t k, const double plane[2],
     x->value[first + 1][k] = scale * (s * plane[0] - c * plane[1]);
 }
 
-static void sample(const hci_machine_model *machine, const hci_machine_model *own,
-                   const hci_loop_level *level, size_t k, hci_turn_samples *x)
+/* ∂ψ/∂θ + L di/dθ, all effects included. */
+static void terminal(const hci_machine_model *machine, double theta_rad, const hci_plane_current *i,
+                     double v[2])
 {
-    const double theta = 2.0 * HCI_PI * (double)x->turns * (double)k / (double)x->samples;
     const int p = machine->table.pole_pairs;
-    const hci_plant_point at = hci_plant_table_at(&machine->table, theta / p);
+    const hci_plant_point at = hci_plant_table_at(&machine->table, theta_rad / p);
     const double *l = at.inductance_H;
-    double i[2], slope[2], v[2];
-    current_at(level, theta, i, slope);
-    put(x, HCI_TURN_CURRENT, k, i, theta);
-    motional(&at, p, i, v);
-    v[0] += l[0] * slope[0] + l[1] * slope[1];
-    v[1] += l[1] * slope[0] + l[2] * slope[1];
-    put(x, HCI_TURN_VOLTAGE, k, v, theta);
-    if (!own) return;
-    const hci_plant_point known = hci_plant_table_at(&own->table, theta / p);
+    double more_Vs[2] = {0.0, 0.0}, ignored_H[3];
+    motional(&at, p, i->x, v);
+    v[0] += l[0] * i->slope[0] + l[1] * i->slope[1];
+    v[1] += l[1] * i->slope[0] + l[2] * i->slope[1];
+    hci_effects_add_flux_slope(&machine->machine, machine->effects, (double)NAN, theta_rad, i, more_Vs,
+                               ignored_H);
+    v[0] += more_Vs[0] / p;
+    v[1] += more_Vs[1] / p;
+}
+
+/* What a decoupling adds at the current that is meant. */
+static void decoupling(const hci_machine_model *own, double theta_rad, const double i[2], double v[2])
+{
+    const int p = own->table.pole_pairs;
+    const hci_plant_point known = hci_plant_table_at(&own->table, theta_rad / p);
     const double *m = known.inductance_H;
     motional(&known, p, i, v);
     v[0] += m[1] * i[0] - m[0] * i[1];
     v[1] += m[2] * i[0] - m[1] * i[1];
+}
+
+static void sample(const hci_machine_model *machine, const hci_machine_model *own,
+                   const hci_loop_level *level, size_t k, hci_turn_samples *x)
+{
+    const double theta = 2.0 * HCI_PI * (double)x->turns * (double)k / (double)x->samples;
+    hci_plane_current i;
+    double v[2];
+    current_at(level, theta, &i);
+    put(x, HCI_TURN_CURRENT, k, i.x, theta);
+    terminal(machine, theta, &i, v);
+    put(x, HCI_TURN_VOLTAGE, k, v, theta);
+    if (!own) return;
+    decoupling(own, theta, i.x, v);
     put(x, HCI_TURN_OWN, k, v, theta);
 }
 

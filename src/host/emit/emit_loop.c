@@ -364,6 +364,7 @@ hci_status hci_emit_loop(const char *folder, const hci_emit_loop_request *reques
 {
     emission e = {.request = request};
     hci_machine_data fitted;
+    hci_effects_data effects = {.list = {NULL, 0}};
     hci_status status = hci_emit_check_name(request->name, note);
     if (!status) status = hci_emit_check_facts(&request->facts, note);
     if (!status) status = hci_drive_fit(request->drive, request->machine, &fitted, note);
@@ -374,7 +375,10 @@ hci_status hci_emit_loop(const char *folder, const hci_emit_loop_request *reques
                                 request->levels,
                                 request->level_count,
                                 request->max_error_A,
-                                request->speed_rad_per_s};
+                                request->speed_rad_per_s,
+                                &effects.list};
+    if (!status && request->machine_folder)
+        status = hci_effects_read_machine(request->machine_folder, &effects, note);
     if (!status) status = hci_loop_set_make(&task, &e.set, note);
     if (!status) status = find_between(&e, note);
     if (!status) status = write_files(&e, folder, note);
@@ -383,5 +387,6 @@ hci_status hci_emit_loop(const char *folder, const hci_emit_loop_request *reques
         result->between = e.between;
     }
     hci_loop_set_release(&e.set);
+    hci_effects_release(&effects);
     return status;
 }

@@ -5,6 +5,7 @@
 
 #include "hci/machine/frames.h"
 #include "host/base/memory.h"
+#include "host/machine/effect_winding.h"
 #include "host/simulate/setup_task.h"
 
 enum { POINTS_PER_TURN = 4096 };
@@ -55,42 +56,22 @@ static hci_status need_winding(const hci_setup_task *b)
         "machine.csv: currents that a voltage drives need a resistance and inductances; add %s", rows);
 }
 
-/* Means over a turn of what the effects add to L_d and L_q at small currents. */
-static void effects_d_and_q(const hci_setup_task *b, double *d_H, double *q_H)
-{
-    enum { ANGLES = 360 };
-    const hci_machine *m = &b->machine->model;
-    *d_H = *q_H = 0.0;
-    for (int k = 0; k < ANGLES && b->effects; ++k) {
-        const hci_sample at = {.theta_m_rad = 2.0 * HCI_PI * k / (ANGLES * m->pole_pairs)};
-        const hci_effect_torque x = hci_effects_torque(m, b->effects, &at, NULL);
-        const double c = cos(2.0 * HCI_PI * k / ANGLES), s = sin(2.0 * HCI_PI * k / ANGLES);
-        const double *l = x.inductance_H;
-        *d_H += (c * c * l[0] + 2.0 * c * s * l[1] + s * s * l[2]) / ANGLES;
-        *q_H += (s * s * l[0] - 2.0 * c * s * l[1] + c * c * l[2]) / ANGLES;
-    }
-}
-
-/* L_d and L_q that differ make a reluctance torque. Where the effects have one, recordings have told it
- * whole, and the difference would count twice: then machine.csv says how large both are, and the effects by
- * how much they differ. */
+/* Says whose the reluctance torque of L_d and L_q that differ is. */
 static void take_difference(const hci_setup_task *b, hci_plant_inductance *given)
 {
-    double d_H, q_H;
     if (fabs(given->d_H - given->q_H) <= 1e-9 * given->q_H) return;
-    effects_d_and_q(b, &d_H, &q_H);
-    if (fabs(d_H - q_H) <= 1e-9 * given->q_H) {
+    const double left_H =
+        hci_effects_take_saliency(&b->machine->model, b->effects, &given->d_H, &given->q_H);
+    if (left_H == 0.0)
         hci_note_add(&b->setup->remark,
                      "inductance_d and inductance_q differ, and the reluctance torque that follows is in "
                      "this simulation; `solve` reads inductance.csv only");
-        return;
-    }
-    given->d_H = given->q_H = 0.5 * (given->d_H + given->q_H - d_H - q_H);
-    hci_note_add(
-        &b->setup->remark,
-        "inductance_d and inductance_q differ, and effects.csv has the reluctance torque: their mean "
-        "is taken, and a difference of %.4g H from effects.csv",
-        d_H - q_H);
+    else
+        hci_note_add(
+            &b->setup->remark,
+            "inductance_d and inductance_q differ, and effects.csv has the reluctance torque: their mean "
+            "is taken, and a difference of %.4g H from effects.csv",
+            left_H);
 }
 
 /* L_d and L_q of machine.csv; where imposed currents do without them, placeholders. */

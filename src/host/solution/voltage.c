@@ -117,23 +117,15 @@ static void add_product(double factor, const double m[3], const double x[2], dou
     out[1] += factor * (m[1] * x[0] + m[2] * x[1]);
 }
 
-/* What the effects add: ω_m (∂T_x/∂i + p L_x di/dθ), since ∂T_x/∂i is the slope of their flux. inductance_H:
- * out, L_x. */
+/* What the effects add. inductance_H: out, theirs. */
 static void add_effects(const hci_voltage_model *v, double theta_rad, const hci_plane_current *i,
                         double out[2], double inductance_H[3])
 {
-    hci_sample truth = {0};
-    double force[2];
-    truth.theta_m_rad = theta_rad / v->machine->model.pole_pairs;
-    truth.temperature_C = v->temperature_C;
-    hci_plane_to_abc(i->x, truth.i_abc);
-    const hci_effect_torque t = hci_effects_torque(&v->machine->model, v->effects, &truth, NULL);
-    hci_plane_from_abc(t.by_current, force);
-    out[0] += v->speed_rad_per_s * force[0];
-    out[1] += v->speed_rad_per_s * force[1];
-    add_product(v->speed_rad_per_s * v->machine->pole_pairs, t.inductance_H, i->slope, out);
-    for (int k = 0; k < 3; ++k)
-        inductance_H[k] = t.inductance_H[k];
+    double slope_Vs[2] = {0.0, 0.0};
+    hci_effects_add_flux_slope(&v->machine->model, v->effects, v->temperature_C, theta_rad, i, slope_Vs,
+                               inductance_H);
+    out[0] += v->speed_rad_per_s * slope_Vs[0];
+    out[1] += v->speed_rad_per_s * slope_Vs[1];
 }
 
 static bool has_effects(const hci_voltage_model *v)

@@ -3,6 +3,7 @@
 #define HCI_SRC_HOST_SOLUTION_VOLTAGE_H
 
 #include "hci/host/solve/solve.h"
+#include "host/machine/effect_winding.h"
 
 typedef struct {
     const hci_machine_data *machine;
@@ -11,11 +12,6 @@ typedef struct {
     double mean_H[3]; /* the constant part of L in the orthonormal plane: αα, αβ, ββ */
     hci_modulation modulation;
 } hci_voltage_model;
-
-/* A current and its derivative by the electrical angle, in the orthonormal plane. */
-typedef struct {
-    double x[2], slope[2];
-} hci_plane_current;
 
 /* v made linear at a current: v ≈ value + by_current (x − x_0) + by_slope (x' − x'_0); matrices by columns.
  */
