@@ -5,10 +5,21 @@
 
 #include "core/drive/table_code.h"
 
-enum { STEPS_OF_A_SAMPLE = 4, MOST_SAMPLES = 20000, LEAST_SAMPLES = 100 };
+enum { MOST_SAMPLES = 20000, LEAST_SAMPLES = 100 };
 
 /* Time constants until the start, which is the wanted current, is forgotten. */
-static const double SETTLE = 4.0;
+static const double SETTLE = 3.0;
+
+static bool has_effects(const hci_sampled_drive *d)
+{
+    return d->plant->effects && d->plant->effects->count > 0;
+}
+
+/* Of the plant to a sample: effects take most of the time. */
+static unsigned steps_of(const hci_sampled_drive *d)
+{
+    return has_effects(d) ? 2 : 4;
+}
 
 typedef struct {
     hci_table_code code;
@@ -26,7 +37,7 @@ static void set_plant(const hci_sampled_drive *d, run *r)
     plant->table = d->plant->table;
     plant->resistance_ohm = d->plant->resistance_ohm;
     plant->inertia_kgm2 = HUGE_VAL;
-    if (!d->plant->effects || d->plant->effects->count == 0) return;
+    if (!has_effects(d)) return;
     r->context = (hci_effects_plant){&d->plant->machine, d->plant->effects, (double)NAN};
     r->effect = (hci_plant_effect){hci_effects_apply, &r->context};
     plant->effects = &r->effect;
@@ -40,7 +51,7 @@ static void set_loop(const hci_drive_data *d, run *r)
     pi->pi[1] = (hci_pi){d->kp_q_ohm, d->ki_q_ohm_per_s};
     pi->filter = hci_drive_filter_share(d);
     pi->decoupled = d->decoupling != HCI_DECOUPLING_NONE;
-    pi->delay_steps = (unsigned)floor(d->computing_delay_s / d->sample_s * STEPS_OF_A_SAMPLE + 0.5);
+    pi->delay_steps = (unsigned)floor(d->computing_delay_s / d->sample_s * r->drive.control.current_every + 0.5);
     pi->modulation = d->modulation;
     r->drive.dead_time =
         (hci_dead_time){d->dc_link_voltage_V * hci_drive_dead_share(d), d->dead_time_crossing_A};
@@ -53,12 +64,12 @@ static void set_control(const hci_sampled_drive *d, run *r)
     r->reference = (hci_reference_code){hci_table_code_at, &r->code};
     r->source.code = &r->reference;
     *control = (hci_control){.table = &d->known->table,
-                             .step_s = d->drive->sample_s / STEPS_OF_A_SAMPLE,
+                             .step_s = d->drive->sample_s / steps_of(d),
                              .dc_link_V = d->drive->dc_link_voltage_V,
                              .torque_limit_Nm = HUGE_VAL,
                              .sources = &r->source,
                              .source_count = 1,
-                             .current_every = STEPS_OF_A_SAMPLE,
+                             .current_every = steps_of(d),
                              .id_limit = HUGE_VAL,
                              .iq_limit = HUGE_VAL,
                              .peak_limit_A = HUGE_VAL,
@@ -99,8 +110,7 @@ static size_t settling_samples(const hci_sampled_drive *d, double speed_rad_per_
 /* Of two periods, of the table or where there are effects of the shaft, or more. */
 static size_t seen_samples(const hci_sampled_drive *d, double speed_rad_per_s)
 {
-    const bool has_effects = d->plant->effects && d->plant->effects->count > 0;
-    const int turns = has_effects ? d->plant->table.pole_pairs : (int)d->loop->period_turns;
+    const int turns = has_effects(d) ? d->plant->table.pole_pairs : (int)d->loop->period_turns;
     const double period = turns * 2.0 * HCI_PI / fabs(speed_rad_per_s) / d->drive->sample_s;
     return (size_t)fmin(fmax(2.0, ceil(LEAST_SAMPLES / period)) * period + 0.5, (double)MOST_SAMPLES);
 }
@@ -109,8 +119,8 @@ hci_sampled_torque hci_sampled_run(const hci_sampled_drive *d, double speed_rad_
 {
     run r;
     start(d, speed_rad_per_s, &r);
-    const size_t before = settling_samples(d, speed_rad_per_s) * STEPS_OF_A_SAMPLE;
-    const size_t seen = seen_samples(d, speed_rad_per_s) * STEPS_OF_A_SAMPLE;
+    const size_t before = settling_samples(d, speed_rad_per_s) * steps_of(d);
+    const size_t seen = seen_samples(d, speed_rad_per_s) * steps_of(d);
     double sum = 0.0, least = HUGE_VAL, most = -HUGE_VAL;
     for (size_t k = 0; k < before + seen; ++k) {
         hci_drive_step(&r.drive, &r.state, torque_of(d), 0.0);

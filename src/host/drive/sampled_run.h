@@ -16,7 +16,7 @@ typedef struct {
 
 /* The torque over whole electrical turns. NAN where the state left the finite numbers. */
 typedef struct {
-    double mean_Nm, ripple_Nm; /* ripple_Nm: peak to peak, at a quarter of a sample */
+    double mean_Nm, ripple_Nm; /* ripple_Nm: peak to peak, at two to four instants of a sample */
 } hci_sampled_torque;
 
 /* With voltage feedforward. speed_rad_per_s: electrical, signed, not 0. O(samples until the start is

@@ -39,6 +39,15 @@ static double cost_of(const hci_sampled_torque *torque, double wanted_Nm)
     return log(fmax(torque->ripple_Nm / fmax(along_Nm, LEAST_MEAN * fabs(wanted_Nm)), LEAST_RIPPLE));
 }
 
+/* Whether the choice before has no order more at a speed, since the sampling has ended them. */
+static bool is_same(const fade *f, int choice, double speed_rad_per_s)
+{
+    if (choice == 0) return false;
+    for (uint32_t k = f->kept[choice]; k < f->kept[choice - 1]; ++k)
+        if ((double)f->given[k].none_rad_per_s > speed_rad_per_s) return false;
+    return true;
+}
+
 static double try_choice(const hci_sampled_drive *drive, double speed_rad_per_s, uint32_t kept, fade *f)
 {
     hci_loop_f32 loop = *drive->loop;
@@ -49,6 +58,22 @@ static double try_choice(const hci_sampled_drive *drive, double speed_rad_per_s,
     part.loop = &loop;
     const hci_sampled_torque torque = hci_sampled_run(&part, speed_rad_per_s);
     return cost_of(&torque, (double)loop.torque_low_Nm);
+}
+
+/* Times the ripple of all orders: where the mean alone leaves more, what is between is not looked at. */
+static const double CLEAR = 3.0;
+
+static void fill_costs(const hci_sampled_drive *drive, int direction, int j, fade *f)
+{
+    const double speed = f->speed_rad_per_s[j];
+    const int last = f->choices - 1;
+    double *cost = f->cost[j];
+    cost[0] = try_choice(drive, direction * speed, f->kept[0], f);
+    cost[last] = try_choice(drive, direction * speed, f->kept[last], f);
+    for (int c = 1; c < last; ++c)
+        cost[c] = cost[last] - cost[0] > log(CLEAR) ? cost[last]
+                  : is_same(f, c, speed)            ? cost[c - 1]
+                                                    : try_choice(drive, direction * speed, f->kept[c], f);
 }
 
 /* The choices with the least sum of costs, of those that never take an order back with the speed. */
@@ -92,8 +117,7 @@ void hci_voltage_fade(const hci_sampled_drive *drive, double from_rad_per_s, dou
     set_choices(drive->loop->order_count, &f);
     for (int j = 0; j < SPEEDS; ++j) {
         f.speed_rad_per_s[j] = low * pow(to_rad_per_s / low, (j + 1.0) / SPEEDS);
-        for (int c = 0; c < f.choices; ++c)
-            f.cost[j][c] = try_choice(drive, direction * f.speed_rad_per_s[j], f.kept[c], &f);
+        fill_costs(drive, direction, j, &f);
     }
     choose(&f);
     for (uint32_t k = 1; k < drive->loop->order_count; ++k)

@@ -8,6 +8,7 @@
 #include "hci/host/simulate/simulate.h"
 #include "host/base/memory.h"
 #include "host/currents/plain_sine.h"
+#include "host/drive/level_mix.h"
 #include "host/drive/loop_set.h"
 #include "host/drive/turn_samples.h"
 
@@ -329,15 +330,19 @@ static double *back_emf_of(hci_speed_row *row)
     return &row->back_emf_V;
 }
 
-/* Of the level nearest to the torque, and of no current. */
+/* Of the currents at the torque, and of no current. */
 static hci_status fill_needed(grid *g)
 {
     const hci_loop_level none = {0.0, NULL, 0};
+    const hci_speeds_request *q = g->request;
+    hci_level_mix asked;
     hci_machine_model model;
-    hci_status status = hci_machine_model_make(&g->machine, &model, g->note);
+    hci_status status = hci_machine_model_make_whole(&g->machine, q->effects, &model, g->note);
     if (status) return status;
-    status = find_links(g, &model, &g->request->levels[level_of(g->request)], needed_of);
+    status = hci_level_mix_make(&g->set.loop, q->levels, q->torque_Nm, &asked, g->note);
+    if (!status) status = find_links(g, &model, &asked.level, needed_of);
     if (!status) status = find_links(g, &model, &none, back_emf_of);
+    hci_level_mix_release(&asked);
     hci_machine_model_release(&model);
     return status;
 }

@@ -323,7 +323,7 @@ static hci_loop_set set_of(const hci_loop_level *levels, size_t count, hci_drive
     hci_note note = {{0}};
     *drive = drive_of("");
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_drive_fit(drive, &machine_c, &fitted, &note));
-    const hci_loop_task task = {&fitted, drive, levels, count, 0.0, 0.0};
+    const hci_loop_task task = {&fitted, drive, levels, count, 0.0, 0.0, NULL};
     TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_loop_set_make(&task, &set, &note), note.text);
     return set;
 }
@@ -375,7 +375,7 @@ static void test_orders_that_lower_the_peaks_stay(void)
         hci_wave emf[2] = {hci_wave_polar(1.0, 1, 0.14, 0.0),
                            hci_wave_polar(5.0, -1, k == 0 ? 0.01 : -0.01, 0.0)};
         hci_machine_data machine = machine_a, fitted;
-        hci_loop_task task = {&fitted, &drive, &level, 1, 0.0, 0.0};
+        hci_loop_task task = {&fitted, &drive, &level, 1, 0.0, 0.0, NULL};
         hci_loop_set set;
         hci_note note = {{0}};
         machine.model.back_emf = emf;
@@ -404,7 +404,7 @@ static void test_levels_that_do_not_fit_are_refused(void)
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_drive_fit(&drive, &machine_c, &fitted, &none));
     for (int w = 0; w < 3; ++w) {
         hci_loop_level level[4];
-        hci_loop_task task = {&fitted, &drive, level, 0, 0.0, 0.0};
+        hci_loop_task task = {&fitted, &drive, level, 0, 0.0, 0.0, NULL};
         hci_loop_set set;
         hci_note note = {{0}};
         for (; task.level_count < 4 && !isnan(WRONG[w][task.level_count]); ++task.level_count)
