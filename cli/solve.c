@@ -209,6 +209,7 @@ static hci_status read_drive(const cli_arguments *a, inputs *in, hci_note *note)
     hci_status status = a->value[DRIVE] ? hci_drive_read(a->value[DRIVE], &drive, note) : HCI_OK;
     if (status || !a->value[DRIVE]) return status;
     hci_drive_remark_saliency(&drive, &in->machine, a->word[0], &in->drive_remark);
+    hci_drive_remark_units(&drive, &in->machine, &in->drive_remark);
     status = hci_solve_for_drive(&drive, &in->machine, &in->options, &in->set, &in->drive_remark, note);
     hci_drive_release(&drive);
     return status;

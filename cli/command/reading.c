@@ -115,7 +115,9 @@ void cli_remark_each(const hci_note *(*remark)(const void *context, size_t k), c
 
 void cli_remark_drive(const hci_drive_data *drive, const hci_machine_data *machine, const char *folder)
 {
-    hci_note decoupling = {{0}}, saliency = {{0}};
+    hci_note decoupling = {{0}}, saliency = {{0}}, units = {{0}};
+    hci_drive_remark_units(drive, machine, &units);
+    cli_remark(&units);
     hci_drive_remark(drive, &decoupling);
     cli_remark(&decoupling);
     hci_drive_remark_saliency(drive, machine, folder, &saliency);
@@ -126,5 +128,13 @@ void cli_remark_response(const hci_drive_data *drive, const hci_machine_data *ma
 {
     hci_note remark = {{0}};
     hci_drive_remark_response(drive, machine, &remark);
+    cli_remark(&remark);
+}
+
+void cli_remark_counts(const hci_drive_data *drive, const hci_machine_data *machine, double highest_order,
+                       double torque_Nm, double mean_Nm)
+{
+    hci_note remark = {{0}};
+    hci_drive_remark_counts(drive, machine->model.pole_pairs, highest_order, torque_Nm, mean_Nm, &remark);
     cli_remark(&remark);
 }

@@ -46,4 +46,8 @@ void cli_remark_drive(const hci_drive_data *drive, const hci_machine_data *machi
 /* That loop.csv is not what the gains make. */
 void cli_remark_response(const hci_drive_data *drive, const hci_machine_data *machine);
 
+/* Says that the encoder has too few counts for the orders of a table; as hci_drive_remark_counts. */
+void cli_remark_counts(const hci_drive_data *drive, const hci_machine_data *machine, double highest_order,
+                       double torque_Nm, double mean_Nm);
+
 #endif

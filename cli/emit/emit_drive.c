@@ -56,6 +56,9 @@ int cli_emit_for_drive(const cli_arguments *a)
     if (!status && cli_is_wordy()) cli_show_loop(&in.request, &result, folder);
     if (!status) cli_remark_drive(&in.drive, &in.machine, a->value[EMIT_MACHINE]);
     if (!status) cli_remark_response(&in.drive, &in.machine);
+    if (!status)
+        cli_remark_counts(&in.drive, &in.machine, result.highest_order, result.torque_high_Nm,
+                          result.coarse_mean_Nm);
     if (!status) cli_emit_remark(a, &in.machine);
     if (!status) cli_emit_remark_zero(a);
     if (!status && cli_emit_wants_json(a))

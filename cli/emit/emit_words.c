@@ -78,6 +78,14 @@ static void show_speed(const char *what, double speed_rad_per_s)
                 floor(speed_rad_per_s * 30.0 / HCI_PI * (1.0 + 1e-6)));
 }
 
+static void show_voltage(const hci_emit_loop_result *result)
+{
+    if (!isfinite(result->voltage_rad_per_s)) return;
+    cli_say("  voltage      all orders up to %.6g rpm with a dc link of %.4g V; above that each up to where it "
+            "does good\n",
+            floor(result->voltage_rad_per_s * 30.0 / HCI_PI * (1.0 + 1e-6)), result->dc_link_V);
+}
+
 #define KNOWN_PERCENT 0.001 /* below it figures are not told apart */
 
 /* What the points of loop.csv leave open, as far as they tell. */
@@ -127,7 +135,7 @@ void cli_show_loop(const hci_emit_loop_request *r, const hci_emit_loop_result *r
             result->peak_A);
     show_between(result);
     cli_say("  lead         %.4g us\n", 1e6 * result->lead_s);
-    show_speed("voltage     ", result->voltage_rad_per_s);
+    show_voltage(result);
     show_speed("sampling    ", result->sampled_rad_per_s);
     if (isfinite(result->measured_rad_per_s)) show_speed("loop.csv    ", result->measured_rad_per_s);
     show_response(result);

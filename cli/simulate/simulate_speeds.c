@@ -267,6 +267,9 @@ static hci_status simulate(const cli_speeds_words *w, inputs *in, hci_note *note
     if (!status && cli_is_wordy()) show(&speeds, w);
     if (!status) cli_remark_drive(&in->drive, &in->machine, w->machine);
     if (!status) cli_remark_response(&in->drive, &in->machine);
+    if (!status)
+        cli_remark_counts(&in->drive, &in->machine, speeds.highest_order, speeds.torque_Nm,
+                          speeds.coarse_mean_Nm);
     for (size_t k = 0; k < w->table_count && !status; ++k) {
         hci_note remark = {{0}};
         hci_solution_remark(w->table[k], &in->machine, &remark);

@@ -91,7 +91,7 @@ frequency_Hz,gain_d,phase_d_rad,gain_q,phase_q_rad
 END
 changed '$1 *= 6.2832'
 run 1 check data/machine_a --drive "$work/changed_drive.csv"
-says 'remedy +the frequencies are in another unit, rad/s: multiply the column `frequency_Hz` by 0.1592; then'
+says 'remedy +the frequencies are in another unit than Hz: multiply the column `frequency_Hz` by 0.1592, as of rad/s; then'
 run 0 simulate data/machine_a --table "$work/a" --drive "$work/changed_drive.csv" --speeds 300
 says 'note: .*changed_drive.csv: its `response` is at most [0-9.]+ % off what .* gains.* make of R and L.*rad/s: multiply'
 run 0 emit "$work/a" --name smooth --machine data/machine_a --drive "$work/changed_drive.csv" -o "$work/changed_c"

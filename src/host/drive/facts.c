@@ -104,6 +104,7 @@ static void look_at(const hci_drive_data *d, const hci_machine_model *machine, h
         f->peak[axis] = peak_of(&m, axis, highest, &f->peak_Hz[axis]);
         f->bandwidth_Hz[axis] = bandwidth_Hz(&m, axis, highest);
     }
+    f->pole_pairs = machine->table.pole_pairs;
     f->lead_s = -carg(answer_of(&m, 1, late)) / late;
     f->largest_pole = hci_loop_largest_pole(&m);
     f->gain_margin = gain_margin(&m);

@@ -11,6 +11,7 @@
 
 #include "host/base/memory.h"
 #include "host/base/quote.h"
+#include "host/drive/coarse_angle.h"
 #include "host/drive/measured_loop.h"
 #include "host/drive/turn_samples.h"
 #include "host/drive/voltage_fade.h"
@@ -451,6 +452,20 @@ hci_status hci_loop_set_make(const hci_loop_task *task, hci_loop_set *set, hci_n
     hci_machine_model_release(&m->plant);
     hci_memory_free(m);
     return status;
+}
+
+double hci_loop_set_highest_order(const hci_loop_set *set)
+{
+    return (double)set->loop.orders[set->loop.order_count - 1] * (double)set->loop.base_order;
+}
+
+double hci_loop_set_coarse_mean_Nm(const hci_loop_set *set, const hci_loop_task *task, double torque_Nm)
+{
+    const hci_machine *machine = &task->machine->model;
+    const double counts = task->drive->encoder_counts;
+    if (!hci_angle_is_coarse(counts, machine->pole_pairs, hci_loop_set_highest_order(set)))
+        return (double)NAN;
+    return hci_coarse_mean_Nm(&set->loop, machine, task->effects, counts, torque_Nm);
 }
 
 double hci_loop_set_response_error(const hci_loop_set *set)

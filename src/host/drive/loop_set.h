@@ -43,6 +43,12 @@ void hci_loop_set_release(hci_loop_set *set);
 double hci_loop_set_response_percent(const hci_loop_set *set, const hci_loop_task *task, size_t level,
                                      double speed_rad_per_s);
 
+/* The highest order, electrical. */
+double hci_loop_set_highest_order(const hci_loop_set *set);
+
+/* What hci_coarse_mean_Nm says of a torque that is asked for; NAN where the angle is not coarse. */
+double hci_loop_set_coarse_mean_Nm(const hci_loop_set *set, const hci_loop_task *task, double torque_Nm);
+
 /* The larger of both response_error. */
 double hci_loop_set_response_error(const hci_loop_set *set);
 

@@ -77,15 +77,29 @@ static void try_loops(const response *r, const hci_loop_model *m, explanation *b
     }
 }
 
+/* What frequencies may be in. */
+static const struct {
+    const char *name;
+    double in_a_Hz;
+} UNITS[] = {{"rad/s", 2.0 * HCI_PI}, {"turns for rad", 0.5 / HCI_PI}, {"kHz", 1e-3}, {"1/min", 60.0}};
+
+/* Of a factor by which the column is to be multiplied. */
+static const char *unit_of(double factor)
+{
+    size_t k = 0;
+    while (k + 1 < sizeof UNITS / sizeof *UNITS && fabs(factor * UNITS[k].in_a_Hz - 1.0) > 1e-6)
+        ++k;
+    return UNITS[k].name;
+}
+
 /* The columns in other units, and of another sign. */
 static void try_columns(const response *r, const hci_loop_model *m, explanation *best)
 {
-    const double turn[] = {2.0 * HCI_PI, 0.5 / HCI_PI};
     const double scale[] = {sqrt(2.0), sqrt(0.5), sqrt(1.5), sqrt(2.0 / 3.0), 1.5, 2.0 / 3.0, 100.0, 0.01};
     response other = *r;
-    for (size_t k = 0; k < sizeof turn / sizeof *turn; ++k) {
-        other.frequency = turn[k];
-        keep_better(best, HCI_RESPONSE_FREQUENCY, off_of(&other, m, NULL), 1.0 / turn[k]);
+    for (size_t k = 0; k < sizeof UNITS / sizeof *UNITS; ++k) {
+        other.frequency = UNITS[k].in_a_Hz;
+        keep_better(best, HCI_RESPONSE_FREQUENCY, off_of(&other, m, NULL), 1.0 / UNITS[k].in_a_Hz);
     }
     other = *r;
     for (size_t k = 0; k < sizeof scale / sizeof *scale; ++k) {
@@ -139,18 +153,21 @@ void hci_response_compare(const hci_drive_data *drive, const hci_loop_model *m, 
 
 /* ---- words ---- */
 
-static void put_value(const hci_drive_facts *f, char value[32])
+enum { VALUE_SIZE = 48 };
+
+static void put_value(const hci_drive_facts *f, char value[VALUE_SIZE])
 {
     value[0] = '\0';
-    if (f->reading == HCI_RESPONSE_GAINS) snprintf(value, 32, ": %.3g times as large", f->reading_value);
-    if (f->reading == HCI_RESPONSE_DELAY) snprintf(value, 32, ": %.3g us", 1e6 * f->reading_value);
-    if (f->reading == HCI_RESPONSE_FREQUENCY || f->reading == HCI_RESPONSE_SCALE)
-        snprintf(value, 32, " by %.4g", f->reading_value);
+    if (f->reading == HCI_RESPONSE_GAINS) snprintf(value, VALUE_SIZE, ": %.3g times as large", f->reading_value);
+    if (f->reading == HCI_RESPONSE_DELAY) snprintf(value, VALUE_SIZE, ": %.3g us", 1e6 * f->reading_value);
+    if (f->reading == HCI_RESPONSE_SCALE) snprintf(value, VALUE_SIZE, " by %.4g", f->reading_value);
+    if (f->reading == HCI_RESPONSE_FREQUENCY)
+        snprintf(value, VALUE_SIZE, " by %.4g, as of %s", f->reading_value, unit_of(f->reading_value));
 }
 
 void hci_response_reading_text(const hci_drive_facts *f, char text[HCI_RESPONSE_TEXT_SIZE])
 {
-    char value[32];
+    char value[VALUE_SIZE];
     put_value(f, value);
     if (f->reading == HCI_RESPONSE_UNKNOWN || f->reading == HCI_RESPONSE_AS_DECLARED)
         snprintf(text, HCI_RESPONSE_TEXT_SIZE, "%s", WORDS[f->reading]);

@@ -103,9 +103,11 @@ static void write_figures(const emission *e, hci_output *out)
     hci_output_text(out, " * Error:   a table of %" PRIu32 " points is within %s A of its waves, of %s A.\n",
                     loop->points, hci_emission_number(e->set.max_error_A, low),
                     hci_emission_number(e->set.peak_A, high));
-    write_rpm(out, " * Speed:   the voltage does for all orders up to ", e->set.voltage_rad_per_s);
+    hci_output_text(out, " * Speed:   a dc link of %s V",
+                    hci_emission_number(e->request->drive->dc_link_voltage_V, low));
+    write_rpm(out, " does for all orders up to ", e->set.voltage_rad_per_s);
     write_rpm(out, ", the sampling up to ", e->set.sampled_rad_per_s);
-    hci_output_text(out, ".\n * CRC-32:  %08" PRIx32 " (IEEE 802.3) of the waves.\n", loop->crc32);
+    hci_output_text(out, ".\n *          Above that an order ends where it does no good any more: another dc link\n *          wants another table.\n * CRC-32:  %08" PRIx32 " (IEEE 802.3) of the waves.\n", loop->crc32);
     hci_output_text(out, " * Input:   FNV-1a %016" PRIx64 "\n */\n", e->request->input_hash);
 }
 
@@ -327,7 +329,9 @@ static hci_emit_loop_result result_of(const hci_loop_set *set, const hci_loop_ta
         .points = loop->points,
         .repeats = loop->repeats,
         .period_turns = loop->period_turns,
-        .highest_order = (double)loop->orders[loop->order_count - 1] * (double)loop->base_order,
+        .highest_order = hci_loop_set_highest_order(set),
+        .coarse_mean_Nm = hci_loop_set_coarse_mean_Nm(set, task, (double)loop->torque_high_Nm),
+        .dc_link_V = task->drive->dc_link_voltage_V,
         .flash_bytes = (size_t)loop->order_count * (loop->levels * 48 + 10) + loop->response_count * 20 + 96,
         .ram_bytes = (size_t)hci_loop_floats(loop, HCI_LOOP_LEAD) * 4,
         .feedforward_ram_bytes = (size_t)hci_loop_floats(loop, HCI_LOOP_FEEDFORWARD) * 4,

@@ -80,6 +80,8 @@ char *hci_emit_loop_json(const hci_emit_loop_request *request, const hci_emit_lo
     hci_json_number(&json, "max_error_A", r->max_error_A);
     hci_json_number(&json, "peak_A", r->peak_A);
     hci_json_number(&json, "lead_s", r->lead_s);
+    hci_json_number(&json, "coarse_angle_mean_Nm", r->coarse_mean_Nm);
+    hci_json_number(&json, "dc_link_V", r->dc_link_V);
     hci_json_number(&json, "voltage_rpm", r->voltage_rad_per_s * 30.0 / HCI_PI);
     hci_json_number(&json, "sampled_rpm", r->sampled_rad_per_s * 30.0 / HCI_PI);
     hci_json_number(&json, "measured_rpm", r->measured_rad_per_s * 30.0 / HCI_PI);

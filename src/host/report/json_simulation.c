@@ -125,6 +125,8 @@ char *hci_speeds_json(const hci_speeds *s)
     hci_json_number(&json, "torque_Nm", s->torque_Nm);
     hci_json_number(&json, "dc_link_V", s->dc_link_V);
     hci_json_number(&json, "reached_V", s->reached_V);
+    hci_json_number(&json, "highest_order", s->highest_order);
+    hci_json_number(&json, "coarse_angle_mean_Nm", s->coarse_mean_Nm);
     hci_json_number(&json, "lead_s", s->lead_s);
     hci_json_number(&json, "model_error_percent", 100.0 * s->model_error);
     hci_json_number(&json, "voltage_rpm", hci_rpm(s->voltage_rad_per_s));

@@ -420,6 +420,9 @@ static hci_status fill(grid *g)
     r->dc_link_V = q->drive->dc_link_voltage_V;
     r->reached_V = r->dc_link_V * (1.0 - 2.0 * hci_drive_dead_share(q->drive));
     r->lead_s = (double)g->set.loop.lead_s;
+    const hci_loop_task task = task_of(g);
+    r->highest_order = hci_loop_set_highest_order(&g->set);
+    r->coarse_mean_Nm = hci_loop_set_coarse_mean_Nm(&g->set, &task, q->torque_Nm);
     r->voltage_rad_per_s = g->set.voltage_rad_per_s;
     r->sampled_rad_per_s = g->set.sampled_rad_per_s;
     r->measured_rad_per_s = g->set.measured_rad_per_s;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "support/draws.h"
+#include "support/effect_list.h"
 #include "unity.h"
 
 static const double R_ohm = 0.7, L_d = 2e-3, L_q = 3.5e-3, E = 0.12;
@@ -87,6 +88,30 @@ static void test_voltages_of_the_rotor_frame(void)
     }
 }
 
+/* Iron that saturates: W' = C i_d i_q² makes fluxes ψ_d = 2/3 C i_q² and ψ_q = 4/3 C i_d i_q, of which the
+ * voltage has dψ_d/dθ − ψ_q and dψ_q/dθ + ψ_d. */
+static void test_voltage_of_saturated_iron(void)
+{
+    static const double C = -2e-3;
+    el_list effects;
+    memset(&effects, 0, sizeof effects);
+    el_add(&effects, "saturation", "d1q2_cosine", 0.0, C);
+    model.effects = &effects.list;
+    make(3);
+    for (size_t k = 0; k < x.samples; k += 7) {
+        const double theta = 2.0 * REF_PI * (double)k / (double)x.samples;
+        const double id = x.value[HCI_TURN_CURRENT][k], iq = x.value[HCI_TURN_CURRENT + 1][k];
+        const double d = slope(HCI_TURN_CURRENT, theta), q = slope(HCI_TURN_CURRENT + 1, theta);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-8,
+                                  L_d * d - L_q * iq + 4.0 / 3.0 * C * iq * q - 4.0 / 3.0 * C * id * iq,
+                                  x.value[HCI_TURN_VOLTAGE][k]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-8,
+                                  L_q * q + L_d * id + E / 2.0 + 4.0 / 3.0 * C * (d * iq + id * q) +
+                                      2.0 / 3.0 * C * iq * iq,
+                                  x.value[HCI_TURN_VOLTAGE + 1][k]);
+    }
+}
+
 /* Sinusoidal currents: √3 of the phase amplitude between phases, twice of it without zero sequence. */
 static void test_dc_link_of_a_sine(void)
 {
@@ -112,6 +137,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_voltages_of_the_rotor_frame);
+    RUN_TEST(test_voltage_of_saturated_iron);
     RUN_TEST(test_dc_link_of_a_sine);
     RUN_TEST(test_orders_that_do_not_repeat_are_refused);
     return UNITY_END();

@@ -142,6 +142,16 @@ void hci_drive_remark(const hci_drive_data *drive, hci_note *remark);
 void hci_drive_remark_saliency(const hci_drive_data *drive, const hci_machine_data *machine,
                                const char *folder, hci_note *remark);
 
+/* Says of values, as read or fitted, that fit no motor, and of which unit they look: a `pwm_frequency` or a
+ * bandwidth far from the sampling, an inductance whose time constant or flux no motor has. */
+void hci_drive_remark_units(const hci_drive_data *drive, const hci_machine_data *machine, hci_note *remark);
+
+/* Says of a drive that was fitted and has fewer counts in an electrical turn than twice the highest order of a
+ * table, how many it takes, and what mean torque the table makes where it is read so. mean_Nm: that; NAN: it
+ * is not known. */
+void hci_drive_remark_counts(const hci_drive_data *drive, int pole_pairs, double highest_order,
+                             double torque_Nm, double mean_Nm, hci_note *remark);
+
 /* Nothing given: every number NAN. */
 void hci_drive_init(hci_drive_data *drive);
 

@@ -18,7 +18,7 @@ extern "C" {
       "an "                                                                                                  \
       "analyser does")                                                                                       \
     X(HCI_RESPONSE_FREQUENCY, "frequency",                                                                   \
-      "the frequencies are in another unit, rad/s: multiply the column `frequency_Hz`")                      \
+      "the frequencies are in another unit than Hz: multiply the column `frequency_Hz`")                      \
     X(HCI_RESPONSE_SCALE, "scale",                                                                           \
       "current and reference are in different units, such as peak and rms: multiply the gains")              \
     X(HCI_RESPONSE_HALF_TURN, "half_turn",                                                                   \
@@ -56,6 +56,7 @@ typedef struct {
     double stable_rad_per_s;  /* mechanical speed from which on it is not stable; INFINITY: none that the
                                  sampling does for */
     double sampled_rad_per_s; /* mechanical speed with 10 samples in an electrical turn */
+    int pole_pairs;           /* of the machine */
     double speed_rad_per_s;   /* that was asked for, mechanical; 0: none */
     double highest_order;     /* in the rotor frame, that the sampling does for at that speed */
     size_t response_count;    /* frequencies of the response; 0: none, and all that follow are NAN */

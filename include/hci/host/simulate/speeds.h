@@ -77,6 +77,9 @@ typedef struct {
     double model_error;        /* as requested */
     double dc_link_V;          /* of the drive */
     double reached_V;          /* what dead time leaves of it */
+    double highest_order;      /* of the table, electrical, in the rotor frame */
+    double coarse_mean_Nm;     /* mean torque of the table, read at encoder_counts that are fewer than twice
+                                * that order takes, at low speed; NAN: they are not */
     double lead_s;             /* by which the table is read ahead */
     double voltage_rad_per_s;  /* mechanical: above it the voltage does not do for all orders; HUGE_VAL */
     double sampled_rad_per_s;  /* mechanical: above it the sampling does not do for all orders; HUGE_VAL */
