@@ -95,21 +95,29 @@ static bool is_kept(const cli_arguments *a, const hci_grid *s)
     return a->value[SWEEP_OUT] && is_any;
 }
 
-static void say_unfinished(const cli_arguments *a, const hci_grid *s)
+/* Beside the results, which may go to a file or to nobody. */
+static void remark_stopped(const cli_arguments *a, const hci_grid *s)
+{
+    hci_note remark = {{0}};
+    if (is_kept(a, s))
+        hci_note_add(&remark,
+                     "ended early: %zu of %zu points are done and kept in %s; the same command goes on from there",
+                     hci_grid_done(s), s->plan.count, a->value[SWEEP_OUT]);
+    else
+        hci_note_add(&remark, "ended early: %zu of %zu points are done, and nothing is kept: %s",
+                     hci_grid_done(s), s->plan.count,
+                     a->value[SWEEP_OUT] ? "the same command begins anew" : "there is no --out");
+    cli_remark(&remark);
+}
+
+/* Of a share that was solved to its end. */
+static void say_share(const cli_arguments *a, const hci_grid *s)
 {
     const bool kept = is_kept(a, s);
     if (!cli_is_wordy()) return;
     cli_say("%zu of %zu points are done%s%s\n", hci_grid_done(s), s->plan.count, kept ? " and kept in " : "",
             kept ? a->value[SWEEP_OUT] : "");
-    if (a->value[SWEEP_OUT] && !kept) {
-        cli_say("  nothing is written before the first of them: the same command begins anew\n");
-        return;
-    }
-    if (a->value[SWEEP_SHARD] && !cli_signals_deferred(NULL))
-        cli_say(
-            "  the same command without --shard and with --join for each folder puts the shares together\n");
-    else if (a->value[SWEEP_OUT])
-        cli_say("  the same command goes on from there\n");
+    cli_say("  the same command without --shard and with --join for each folder puts the shares together\n");
 }
 
 static hci_status give_results(const cli_arguments *a, const hci_grid *s, hci_note *note)
@@ -142,7 +150,10 @@ static hci_status sweep(const cli_arguments *a, const cli_sweep_inputs *in, hci_
     status = cli_sweep_run(in, &work, &s, note);
     const bool is_stopped = cli_signals_deferred(NULL);
     cli_remark(&s.remark);
-    if (s.plan.count > 0 && (is_stopped || (!status && !is_complete(&s)))) say_unfinished(a, &s);
+    if (s.plan.count > 0 && is_stopped)
+        remark_stopped(a, &s);
+    else if (s.plan.count > 0 && !status && !is_complete(&s))
+        say_share(a, &s);
     cli_signals_obey();
     cli_signals_catch();
     if (!status && is_complete(&s)) status = give_results(a, &s, note);

@@ -204,6 +204,24 @@ static void show_harm(const hci_speeds *s)
     show_not_compared(s);
 }
 
+/* Of a limit: less is what readings and rounding make. */
+static const double EXCEEDED = 1e-3;
+
+/* Currents that keep a limit on paper do not keep it where a loop overshoots, or asks for more. */
+static void show_exceeded(const hci_speeds *s, const cli_speeds_words *w)
+{
+    double limit_A = (double)NAN;
+    for (size_t k = 0; k < w->table_count; ++k)
+        limit_A = fmin(limit_A, hci_solution_read_current_limit(w->table[k]));
+    for (size_t k = 0; k < s->count; ++k)
+        for (int r = HCI_REMEDY_TABLE; r < HCI_REMEDIES; ++r)
+            if (s->row[k].remedy[r].peak_A > (1.0 + EXCEEDED) * limit_A)
+                cli_say("  at %.4g rpm %s takes a phase to %.4g A, above the %.4g A that the currents were "
+                        "solved with: leave that much below the limit\n",
+                        rpm(s->row[k].speed_rad_per_s), hci_remedy_name((hci_remedy)r),
+                        s->row[k].remedy[r].peak_A, limit_A);
+}
+
 /* What no control can make. */
 static void show_beyond(const hci_speeds *s)
 {
@@ -242,6 +260,7 @@ static void show(const hci_speeds *s, const cli_speeds_words *w)
     if (isfinite(s->measured_rad_per_s)) show_limit("loop.csv", s->measured_rad_per_s, "");
     show_response(s);
     show_harm(s);
+    show_exceeded(s, w);
 }
 
 /* ---- the command ---- */

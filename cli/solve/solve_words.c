@@ -138,6 +138,15 @@ static void show_least(double ratio)
                 100.0 * (1.0 - ratio));
 }
 
+/* Whether a phase is limited to no current. */
+static bool has_open_phase(const hci_solution *s)
+{
+    bool open = false;
+    for (size_t k = 0; k < s->limit_count; ++k)
+        open = open || (s->limit[k].kind == HCI_LIMIT_CURRENT && !(s->limit[k].limit > 0.0));
+    return open;
+}
+
 static void show_current(const hci_solution *s)
 {
     const bool to_plain = isfinite(s->loss_to_plain), to_limit = isfinite(s->loss_to_limit);
@@ -152,7 +161,7 @@ static void show_current(const hci_solution *s)
                 s->limit_cost == HCI_COST_TORQUE ? " that the wanted mean takes" : "");
     if (to_plain && to_limit) cli_say("; ");
     if (to_limit) show_least(s->loss_to_limit);
-    cli_say("\n");
+    cli_say("%s\n", has_open_phase(s) ? ", with all phases" : "");
 }
 
 static void show_expected(const hci_solution *s)

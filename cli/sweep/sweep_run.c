@@ -9,6 +9,7 @@
 
 #include "cli/command/jobs.h"
 #include "cli/terminal/progress.h"
+#include "cli/terminal/say.h"
 #include "cli/terminal/signals.h"
 
 #define KEEP_S 1.0 /* between two writings of the points */
@@ -78,6 +79,7 @@ typedef struct {
     hci_grid *sweep;
     size_t *item;
     size_t items, taken;
+    void *lock; /* of the folder, once there is one */
     double kept_s;   /* when the points were written last */
     bool is_changed; /* since then */
     bool is_any;     /* a point that did not fail: until then nothing is written */
@@ -120,10 +122,22 @@ static void take_point(void *context, size_t item, const void *answer, int numbe
     ++w->taken;
 }
 
+/* A folder that was not there at the start may hold the points of another process by now. */
+static hci_status lock_late(points_work *w)
+{
+    if (w->lock) return HCI_OK;
+    const hci_status status = hci_grid_lock(w->out, &w->lock, &w->note);
+    if (status || !w->lock) return status;
+    return hci_grid_take_points(w->sweep, &w->inputs->inputs, w->out, false, &w->note);
+}
+
 static void keep(points_work *w)
 {
-    if (w->out && w->is_any && w->is_changed && !w->status)
-        w->status = hci_grid_keep_points(w->sweep, &w->inputs->inputs, w->out, &w->note);
+    if (w->out && w->is_any && w->is_changed && !w->status) {
+        w->status = lock_late(w);
+        if (!w->status) w->status = hci_grid_keep_points(w->sweep, &w->inputs->inputs, w->out, &w->note);
+        if (!w->status) w->status = hci_grid_lock(w->out, &w->lock, &w->note);
+    }
     w->is_changed = false;
     w->kept_s = now_s();
 }
@@ -189,6 +203,17 @@ static hci_status take_known(const cli_sweep_inputs *in, const cli_sweep_work *w
     return status;
 }
 
+/* Shares that are put together may not be all of them. */
+static void remark_missing(const points_work *w)
+{
+    hci_note remark = {{0}};
+    if (w->items > 0)
+        hci_note_add(&remark,
+                     "%zu of %zu points are in none of the folders that are joined, and are solved here",
+                     w->items, w->sweep->plan.count);
+    cli_remark(&remark);
+}
+
 hci_status cli_sweep_run(const cli_sweep_inputs *in, const cli_sweep_work *work, hci_grid *sweep,
                          hci_note *note)
 {
@@ -202,10 +227,13 @@ hci_status cli_sweep_run(const cli_sweep_inputs *in, const cli_sweep_work *work,
     if (!status) status = hci_grid_plan_make(&in->request, is_trade_off ? &span : NULL, &plan, note);
     if (!status) status = hci_grid_begin(&in->request, &plan, sweep, note);
     hci_grid_plan_release(&plan);
+    if (!status && work->out) status = hci_grid_lock(work->out, &w.lock, note);
     if (!status) status = take_known(in, work, sweep, note);
     if (!status) status = list_items(&w, note);
+    if (!status && work->joins > 0) remark_missing(&w);
     if (!status) status = solve_points(&w, work->jobs, note);
     if (!status) status = judge(&w, note);
+    hci_grid_unlock(w.lock);
     free(w.item);
     return status;
 }

@@ -30,7 +30,7 @@ ended() {
     check "results of a sweep that was ended" [ ! -e "$3/map.csv" ]
     kept=$(($(wc -l <"$3/points.csv") - 1))
     check "$kept points of 111 were kept" [ "$kept" -gt 0 -a "$kept" -lt 111 ]
-    [ "$1" = KILL ] || says "^$kept of 111 points are done and kept in" 'the same command goes on from there'
+    [ "$1" = KILL ] || says "note: ended early: $kept of 111 points are done and kept in .*; the same command goes on from there"
     # shellcheck disable=SC2086
     run 0 $long -q -o "$3"
     rm -f "$3"/.hci-*

@@ -3,6 +3,7 @@
 #include "hci/host/currents/solution_folder.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -181,6 +182,15 @@ double hci_solution_read_expected_ripple(const char *path)
         hci_json_find_number(text, "expected", "peak_to_peak_Nm_95", &ripple_Nm);
     hci_memory_free(text);
     return ripple_Nm;
+}
+
+double hci_solution_read_current_limit(const char *path)
+{
+    double limit_A = (double)NAN;
+    char *text = hci_solution_is_folder(path) ? summary_of(path) : NULL;
+    if (text) hci_json_find_number(text, "limits", "phase_current_A", &limit_A);
+    hci_memory_free(text);
+    return limit_A;
 }
 
 hci_solution_verdict hci_solution_read_verdict(const char *path)

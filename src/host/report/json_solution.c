@@ -155,6 +155,15 @@ static void put_open(hci_json *json, const hci_solution *s)
     hci_json_text(json, "open_phases", open);
 }
 
+/* What no phase may exceed: the largest of the limits of the peak current. */
+static double phase_limit_A(const hci_solution *s)
+{
+    double most = (double)NAN;
+    for (size_t k = 0; k < s->limit_count; ++k)
+        if (s->limit[k].kind == HCI_LIMIT_CURRENT) most = fmax(most, s->limit[k].limit);
+    return most;
+}
+
 static void put_limits(hci_json *json, const hci_solution *s)
 {
     static const char *const MINIMISED[] = {"", "worst", "peak-to-peak", "rms"};
@@ -167,6 +176,7 @@ static void put_limits(hci_json *json, const hci_solution *s)
     hci_json_number(json, "minimised_Nm", s->minimised_Nm);
     hci_json_number(json, "exceeded_share", s->exceeded_share);
     put_open(json, s);
+    hci_json_number(json, "phase_current_A", phase_limit_A(s));
     hci_json_array(json, "limit");
     for (size_t k = 0; k < s->limit_count; ++k)
         put_limit(json, &s->limit[k]);

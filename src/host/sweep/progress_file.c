@@ -1,6 +1,7 @@
 /* points.csv and sweep.csv: what is solved so far, and of what. */
 #include "hci/host/sweep/progress_file.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -9,6 +10,8 @@
 #include "hci/host/base/number.h"
 #include "hci/host/csv/csv.h"
 #include "host/base/digest.h"
+#include "host/base/folder_lock.h"
+#include "host/base/quote.h"
 #include "host/csv/table.h"
 #include "host/machine/folder.h"
 #include "host/sweep/columns.h"
@@ -312,4 +315,27 @@ hci_status hci_grid_take_points(hci_grid *sweep, const hci_grid_inputs *inputs, 
     if (!hci_machine_has(path) && !must_be) return HCI_OK;
     status = check_inputs(inputs, folder, note);
     return status ? status : read_points(sweep, path, note);
+}
+
+/* ---- one sweep at a time ---- */
+
+enum { WAIT_ms = 500 };
+
+hci_status hci_grid_lock(const char *folder, void **lock, hci_note *note)
+{
+    char shown[HCI_QUOTE_PATH_SIZE];
+    bool is_alone;
+    if (*lock) return HCI_OK;
+    *lock = hci_folder_lock_take(folder, WAIT_ms, &is_alone);
+    if (*lock || errno != EWOULDBLOCK) return HCI_OK; /* what cannot be written is told by who writes */
+    return hci_note_set(note, HCI_ERROR_OUTPUT,
+                        "%s: another process works at the sweep there, and each would write its points over "
+                        "those of the other; expected one at a time: wait for it, or give each --shard its "
+                        "own --out and put them together with --join",
+                        hci_quote_path(folder, shown));
+}
+
+void hci_grid_unlock(void *lock)
+{
+    hci_folder_lock_release(lock);
 }

@@ -60,6 +60,9 @@ typedef enum {
     HCI_SOLUTION_OUT_OF_LIMITS /* a limit is not kept */
 } hci_solution_verdict;
 
+/* The peak of a phase current in A that a solution was limited to; NAN where it was not, or does not say. */
+double hci_solution_read_current_limit(const char *path);
+
 /* By summary.json of the folder; good for one file, and where there is none. */
 hci_solution_verdict hci_solution_read_verdict(const char *path);
 

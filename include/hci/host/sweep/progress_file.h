@@ -39,6 +39,14 @@ void hci_grid_inputs_add_machine(hci_grid_inputs *inputs, const char *folder);
 hci_status hci_grid_take_points(hci_grid *sweep, const hci_grid_inputs *inputs, const char *folder,
                                 bool must_be, hci_note *note);
 
+/* Keeps an existing folder for this process until hci_grid_unlock, so that no other sweep writes its points
+ * over those of this one; nothing where there is no such folder yet. HCI_ERROR_OUTPUT where another process
+ * has it. *lock: NULL before the first call; may be called again. */
+hci_status hci_grid_lock(const char *folder, void **lock, hci_note *note);
+
+/* lock may be NULL. */
+void hci_grid_unlock(void *lock);
+
 /* Writes points.csv and sweep.csv into the folder; both or none. HCI_ERROR_OUTPUT, _MEMORY. */
 hci_status hci_grid_keep_points(const hci_grid *sweep, const hci_grid_inputs *inputs, const char *folder,
                                 hci_note *note);
