@@ -18,8 +18,8 @@ static void say_ends(hci_output *out, const hci_speeds *s)
     hci_html_number_text(sampled, rpm(s->sampled_rad_per_s));
     if (isfinite(s->voltage_rad_per_s))
         hci_html_say(out, NULL,
-                     "The dc link does for all orders up to %s rpm; above that they fade, the highest "
-                     "first.",
+                     "The dc link does for all orders up to %s rpm; above that they are kept as long as they "
+                     "leave less ripple than without them, the highest the shortest.",
                      voltage);
     if (isfinite(s->sampled_rad_per_s))
         hci_html_say(out, NULL, "The sampling does for all orders up to %s rpm.", sampled);
