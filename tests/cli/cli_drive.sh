@@ -93,9 +93,9 @@ changed '$1 *= 6.2832'
 run 1 check data/machine_a --drive "$work/changed_drive.csv"
 says 'remedy +the frequencies are in another unit than Hz: multiply the column `frequency_Hz` by 0.1592, as of rad/s; then'
 run 0 simulate data/machine_a --table "$work/a" --drive "$work/changed_drive.csv" --speeds 300
-says 'note: .*changed_drive.csv: its `response` is at most [0-9.]+ % off what .* gains.* make of R and L.*rad/s: multiply'
+says 'note: .*changed_drive.csv: its `response` is at most [0-9.]+ % off what .* gains.* make of R and L.*multiply .* by 0.1592, as of rad/s'
 run 0 emit "$work/a" --name smooth --machine data/machine_a --drive "$work/changed_drive.csv" -o "$work/changed_c"
-says 'note: .*changed_drive.csv: its `response` is at most [0-9.]+ % off what .*rad/s: multiply'
+says 'note: .*changed_drive.csv: its `response` is at most [0-9.]+ % off what .*multiply .* by 0.1592, as of rad/s'
 changed '$2 *= 0.70711; $4 *= 0.70711'
 run 1 check data/machine_a --drive "$work/changed_drive.csv"
 says 'different units, such as peak and rms: multiply the gains by 1\.414; then'
@@ -208,6 +208,48 @@ run 0 check data/machine_a --drive $drive --speed 2500
 says 'for orders up to 48 in the rotor frame, whole up to 43.2'
 check "a loop that does not peak" [ "$(grep -c 'answers a reference' "$work/stdout")" -eq 0 ]
 
+# ---- values of another unit
+
+sed '$a pwm_frequency,10,,t\ndead_time,2,us,t' $drive >"$work/unit.csv"
+run 0 check data/machine_a --drive "$work/unit.csv"
+says 'note: .*`pwm_frequency` of 10 Hz is 0.001 periods in a `current_sample_time` of 0.0001 s.*is it in kHz'
+sed '$a bandwidth,0.5,,t' $drive >"$work/unit.csv"
+run 0 simulate data/machine_a --table "$work/a" --drive "$work/unit.csv" --speeds 300
+says 'note: .*bandwidth of the current loop is 0.5 Hz.*is `bandwidth` in kHz'
+sed 's/^\(inductance_.,0.5,\)mH/\1H/' $drive >"$work/unit.csv"
+run 0 emit "$work/a" --name t --machine data/machine_a --drive "$work/unit.csv" -o "$work/unit"
+says 'note: an inductance of 0.5 H with a resistance of 0.1 ohm has a time constant of 5 s.*is the inductance in mH'
+sed 's/^\(inductance_.,0.5,\)mH/\1uH/' $drive >"$work/unit.csv"
+run 0 check data/machine_a --drive "$work/unit.csv"
+says 'note: an inductance of 5e-07 H .*mH in place of uH'
+changed '$1 *= 0.001'
+run 1 check data/machine_a --drive "$work/changed_drive.csv"
+says 'multiply the column `frequency_Hz` by 1000, as of kHz'
+run 2 solve data/machine_a --target data/scenarios/02/target.csv --auto --dead-time 2e-6 --pwm-frequency 10 -o "$work/out"
+for good in $drive "$work/logged.csv"; do
+    run 0 check data/machine_a --drive "$good"
+    check "a good drive is spoken of: $good" [ "$(grep -c 'note:' "$work/stderr")" -eq 0 ]
+done
+
+# ---- few counts, the dc link, and a limit that the loop does not keep
+
+sed '$a encoder_counts,16,,t' $drive >"$work/coarse.csv"
+run 0 emit "$work/a" --name t --machine data/machine_a --drive "$work/coarse.csv" -o "$work/coarse"
+says 'note: .*`encoder_counts` of 16 are 8 to an electrical turn.*48.*at least 192.*makes 3.3[01][0-9]* of 2.46' \
+    'voltage +all orders up to 16[0-9][0-9] rpm with a dc link of 100 V'
+check "the header has no dc link" grep -q 'a dc link of 100.0 V does for all orders up to 16' "$work/coarse/t.h"
+run 0 simulate data/machine_a --table "$work/a" --drive "$work/coarse.csv" --speeds 100 -o "$work/coarse_speeds"
+says 'note: .*`encoder_counts` of 16 are 8'
+check "the mean at low speed is another one" awk -F, '/,table,/ { found = $6 > 3.2 && $6 < 3.4 } END { exit !found }' "$work/coarse_speeds/speeds.csv"
+run 0 check data/machine_a --drive "$work/coarse.csv"
+says 'encoder +8 counts to an electrical turn, for tables of orders up to 4'
+sed '$a encoder_counts,192,,t' $drive >"$work/coarse.csv"
+run 0 simulate data/machine_a --table "$work/a" --drive "$work/coarse.csv" --speeds 300
+check "enough counts are spoken of" [ "$(grep -c 'encoder_counts' "$work/stderr")" -eq 0 ]
+run 1 solve data/machine_a --target data/scenarios/02/target.csv --auto --limit-current 18 --minimise peak-to-peak -q -o "$work/limited"
+run 0 simulate data/machine_a --table "$work/limited" --drive $drive --speeds 300,1000
+says 'at 1000 rpm feedforward takes a phase to 18.1[0-9]* A, above the 18 A that the currents were solved with'
+
 # ---- a scenario says as much of its loop
 
 cp -R data/machine_a "$work/wound"
@@ -222,7 +264,8 @@ says '`dead_time` is 6e-05 s, expected less than half of `current_sample_time`'
 run 0 simulate "$work/wound" "$work/pi.csv"
 check "a stable loop is spoken of" [ "$(grep -c 'not stable' "$work/stderr")" -eq 0 ]
 
-# ---- a machine that saturates: its currents are for it, and the loop's tables do for most of it
+# ---- a machine that saturates: currents and voltages are for it; with the voltages of L_d and L_q alone it would be 0.39 % at
+# 80 rpm, and with 311 V that the solve keeps, 9.1 % at 600 rpm, since orders that fit would be gone
 
 cp -r data/machine_c_saturated "$work/saturated"
 printf 'inductance_d,80,mH,test\ninductance_q,80,mH,test\n' >>"$work/saturated/machine.csv"
@@ -230,16 +273,21 @@ printf 'order,amplitude_Nm,phase_rad\n0,8,0\n' >"$work/eight.csv"
 run 0 solve data/machine_c_saturated --target "$work/eight.csv" --auto -q -o "$work/eight"
 run 0 simulate "$work/saturated" --table "$work/eight" --drive data/drive/machine_c_10kHz.csv --speeds 80 -q -o "$work/saturated_speeds"
 check "saturation does not act, or is not compensated" awk -F, '{ at[$2] = $3; mean[$2] = $6 }
-    END { exit !(at["table"] > 3 && at["compensation"] < 0.5 && at["compensation"] > 0.1 && mean["compensation"] > 7.99 && mean["compensation"] < 8.01) }' \
+    END { exit !(at["table"] > 3 && at["compensation"] < 0.05 && mean["compensation"] > 7.99 && mean["compensation"] < 8.01) }' \
+    "$work/saturated_speeds/speeds.csv"
+
+run 0 solve "$work/saturated" --target "$work/eight.csv" --speed 600 --drive data/drive/machine_c_10kHz.csv -q -o "$work/saturated_600"
+run 0 simulate "$work/saturated" --table "$work/saturated_600" --drive data/drive/machine_c_10kHz.csv --speeds 600 -o "$work/saturated_speeds"
+check "the voltage is not that of the solve" awk -F, '/feedforward/ { found = $3 < 0.5 && $9 > 310.5 && $9 < 311.5 } END { exit !found }' \
     "$work/saturated_speeds/speeds.csv"
 
 # ---- the words say no more than was seen, and where the torque is not made
 
-run 0 simulate data/machine_a --table "$work/a" --drive $drive --speeds 300,2000
-says 'mean torque in N·m at speeds where one is more than 1 % off 2\.463 N·m' '^ +2000 rpm( +[12]\.[0-9]+){5}$' \
-    '^  lead is worse than the plain sine from between 300 and 2000 rpm on$'
+run 0 simulate data/machine_a --table "$work/a" --drive $drive --speeds 300,1800
+says 'mean torque in N·m at speeds where one is more than 1 % off 2\.463 N·m' '^ +1800 rpm( +[12]\.[0-9]+){5}$' \
+    '^  lead is worse than the plain sine from between 300 and 1800 rpm on$'
 check "a torque that is made is told" [ "$(grep -cE '^ +300 rpm( +[0-9.]+){5}$' "$work/stdout")" -eq 0 ]
-run 0 simulate data/machine_a --table "$work/a" --drive $drive --speeds 2000
+run 0 simulate data/machine_a --table "$work/a" --drive $drive --speeds 1800
 says '^  lead is worse than the plain sine at all given speeds$'
 run 0 simulate data/machine_a --table "$work/a" --drive $drive --speeds 300
 check "what is better is called worse" [ "$(grep -cE 'worse|mean torque' "$work/stdout")" -eq 0 ]
@@ -247,12 +295,12 @@ check "what is better is called worse" [ "$(grep -cE 'worse|mean torque' "$work/
 run 0 simulate data/machine_a --table "$work/a" --drive $drive --speeds -300,-900 -o "$work/back"
 says '^ +-300 rpm( +[0-9.]+){6}$' '^ +-900 rpm'
 check "the picture has no word of the direction" grep -q 'speed in rpm, in the negative direction' "$work/back/speeds.svg"
-# There it is the emitted table, which fades at the speeds at which it drives: 6.15 % by a simulator of somebody else's
-# that runs the emitted C; with orders that end where the voltage does backward it would be 2.79.
+# There it is the emitted table, whose orders end at the speeds at which it drives: 14.84 % by a simulator of somebody else's
+# that runs the emitted C; with all orders, for which there is less voltage missing backward, it would be 13.5.
 run 0 solve data/machine_c --target "$work/eight.csv" --auto -q -o "$work/eight_c"
-run 0 simulate data/machine_c --table "$work/eight_c" --drive data/drive/machine_c_10kHz.csv --speeds -500 -o "$work/back_c"
+run 0 simulate data/machine_c --table "$work/eight_c" --drive data/drive/machine_c_10kHz.csv --speeds -1000 -o "$work/back_c"
 says 'voltage +does for all orders up to [0-9]+ rpm, turning as the torque drives'
-check "backward it is not the emitted table" awk -F, '$2 == "feedforward" { found = $3 > 5.8 && $3 < 6.5 } END { exit !found }' \
+check "backward it is not the emitted table" awk -F, '$2 == "feedforward" { found = $3 > 14.4 && $3 < 15.2 } END { exit !found }' \
     "$work/back_c/speeds.csv"
 # a table that is the plain sine is not worse than it
 printf 'order,amplitude_Nm,phase_rad\n0,2,0\n' >"$work/two.csv"

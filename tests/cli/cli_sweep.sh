@@ -71,10 +71,30 @@ map="sweep $m --map --torques 0.5:2:0.5 --speeds 300,1500 --limit-current 12 --l
     nothing_on_stderr
     run 0 $map --shard 3/3 -q -o "$work/share3"
     run 0 $map --join "$work/share1" --join "$work/share2" --join "$work/share3" -q -o "$work/joined"
+    run 0 $map --join "$work/share1" --join "$work/share2" -o "$work/lacking"
+    says 'note: 2 of 8 points are in none of the folders that are joined, and are solved here'
 }
-for folder in three joined; do
+for folder in three joined lacking; do
     check "$folder is not the whole" diff -r "$work/one" "$work/$folder"
 done
+
+# ---- one at a time in a folder
+
+cp -R "$work/share1" "$work/held"
+python3 -c 'import fcntl, os, sys, time
+held = os.open(sys.argv[1], os.O_RDONLY)
+fcntl.flock(held, fcntl.LOCK_EX)
+open(sys.argv[2], "w").close()
+time.sleep(60)' "$work/held" "$work/is_held" &
+holder=$!
+tries=0
+while [ ! -e "$work/is_held" ] && [ $tries -lt 200 ]; do sleep 0.05 && tries=$((tries + 1)); done
+# shellcheck disable=SC2086
+run 5 $map --shard 2/3 -o "$work/held"
+says 'another process works at the sweep there.*give each --shard its own --out'
+kill $holder
+wait $holder 2>/dev/null
+check "points of another process were touched" diff -r "$work/share1" "$work/held"
 
 # ---- gone on, and refused with other inputs; cli_sweep_interrupt.sh ends it
 
