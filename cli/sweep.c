@@ -100,9 +100,10 @@ static void remark_stopped(const cli_arguments *a, const hci_grid *s)
 {
     hci_note remark = {{0}};
     if (is_kept(a, s))
-        hci_note_add(&remark,
-                     "ended early: %zu of %zu points are done and kept in %s; the same command goes on from there",
-                     hci_grid_done(s), s->plan.count, a->value[SWEEP_OUT]);
+        hci_note_add(
+            &remark,
+            "ended early: %zu of %zu points are done and kept in %s; the same command goes on from there",
+            hci_grid_done(s), s->plan.count, a->value[SWEEP_OUT]);
     else
         hci_note_add(&remark, "ended early: %zu of %zu points are done, and nothing is kept: %s",
                      hci_grid_done(s), s->plan.count,

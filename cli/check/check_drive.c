@@ -72,9 +72,10 @@ static void show_speed(const hci_drive_facts *f)
                 rpm(f->speed_rad_per_s), f->highest_order, 0.9 * f->highest_order);
     cli_say("\n");
     if (f->drive.encoder_counts > 0.0)
-        cli_say("  encoder      %.4g counts to an electrical turn, for tables of orders up to %.4g in the rotor "
-                "frame\n",
-                f->drive.encoder_counts / f->pole_pairs, 0.5 * f->drive.encoder_counts / f->pole_pairs);
+        cli_say(
+            "  encoder      %.4g counts to an electrical turn, for tables of orders up to %.4g in the rotor "
+            "frame\n",
+            f->drive.encoder_counts / f->pole_pairs, 0.5 * f->drive.encoder_counts / f->pole_pairs);
     if (isfinite(f->stable_rad_per_s))
         cli_say("  " CLI_WARN "stable" CLI_PLAIN "       up to %.4g rpm\n", rpm(f->stable_rad_per_s));
 }

@@ -81,9 +81,10 @@ static void show_speed(const char *what, double speed_rad_per_s)
 static void show_voltage(const hci_emit_loop_result *result)
 {
     if (!isfinite(result->voltage_rad_per_s)) return;
-    cli_say("  voltage      all orders up to %.6g rpm with a dc link of %.4g V; above that each up to where it "
-            "does good\n",
-            floor(result->voltage_rad_per_s * 30.0 / HCI_PI * (1.0 + 1e-6)), result->dc_link_V);
+    cli_say(
+        "  voltage      all orders up to %.6g rpm with a dc link of %.4g V; above that each up to where it "
+        "does good\n",
+        floor(result->voltage_rad_per_s * 30.0 / HCI_PI * (1.0 + 1e-6)), result->dc_link_V);
 }
 
 #define KNOWN_PERCENT 0.001 /* below it figures are not told apart */
@@ -101,8 +102,9 @@ static void show_response(const hci_emit_loop_result *result)
     cli_say("\n");
 }
 
-#define NO_DEPARTURE 1e-5 /* share of the largest torque below which levels are as good as a straight line   \
-                           */
+#define NO_DEPARTURE                                                                                         \
+    1e-5 /* share of the largest torque below which levels are as good as a straight line                    \
+          */
 
 /* What a torque between two levels makes of what is asked for. */
 static void show_between(const hci_emit_loop_result *r)

@@ -42,7 +42,7 @@
                        CLI_NUMBER,                                                                           \
                        "HZ",                                                                                 \
                        .help = "switching frequency of a leg, for --dead-time",                              \
-                       .low = 50.0,                                                                           \
+                       .low = 50.0,                                                                          \
                        .high = 1e9},                                                                         \
     [IGNORE_RATINGS] = {"ignore-ratings", 0, CLI_FLAG, NULL,                                                 \
                         .help = "max_current and dc_link_voltage of machine.csv are no limits"}

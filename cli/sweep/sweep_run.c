@@ -79,7 +79,7 @@ typedef struct {
     hci_grid *sweep;
     size_t *item;
     size_t items, taken;
-    void *lock; /* of the folder, once there is one */
+    void *lock;      /* of the folder, once there is one */
     double kept_s;   /* when the points were written last */
     bool is_changed; /* since then */
     bool is_any;     /* a point that did not fail: until then nothing is written */

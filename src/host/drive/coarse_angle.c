@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-#include "hci/machine/torque.h"
 #include "hci/host/drive/drive.h"
+#include "hci/machine/torque.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
 #include "host/machine/machine_plant.h"
@@ -69,11 +69,12 @@ void hci_drive_remark_counts(const hci_drive_data *drive, int pole_pairs, double
     const double counts = drive->encoder_counts;
     char path[HCI_QUOTE_PATH_SIZE];
     if (!hci_angle_is_coarse(counts, pole_pairs, highest_order)) return;
-    hci_note_add(remark,
-                 "%s: `encoder_counts` of %g are %.4g to an electrical turn, fewer than twice the highest order "
-                 "of the table, %.4g: its orders act as others, and on the mean; expected at least %.6g",
-                 drive->path[0] ? hci_quote_path(drive->path, path) : "drive.csv", counts, counts / pole_pairs,
-                 highest_order, ceil(2.0 * highest_order * pole_pairs));
+    hci_note_add(
+        remark,
+        "%s: `encoder_counts` of %g are %.4g to an electrical turn, fewer than twice the highest order "
+        "of the table, %.4g: its orders act as others, and on the mean; expected at least %.6g",
+        drive->path[0] ? hci_quote_path(drive->path, path) : "drive.csv", counts, counts / pole_pairs,
+        highest_order, ceil(2.0 * highest_order * pole_pairs));
     if (isfinite(mean_Nm))
         hci_note_add(remark,
                      "read in the middle of each count the table makes %.4g of %.4g N·m at low speed, and "

@@ -249,8 +249,7 @@ static bool drives_backward(const hci_loop_task *t)
 /* The dc link that a level needs at a speed, turning as the torque drives. */
 static double needed_V(const maker *m, size_t level, double speed_rad_per_s)
 {
-    return hci_turn_samples_dc_link_V(&m->level[level], m->machine.resistance_ohm,
-                                      m->task->drive->modulation,
+    return hci_turn_samples_dc_link_V(&m->level[level], m->machine.resistance_ohm, m->task->drive->modulation,
                                       drives_backward(m->task) ? -speed_rad_per_s : speed_rad_per_s);
 }
 

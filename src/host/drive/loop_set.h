@@ -13,8 +13,8 @@ typedef struct {
     const hci_drive_data *drive;     /* fitted */
     const hci_loop_level *levels; /* ascending by torque, equally far apart; 1, 2 or an odd number of them */
     size_t level_count;
-    double max_error_A;     /* of the splines; 0: 2e-4 of the largest current */
-    double speed_rad_per_s; /* mechanical; 0: the table is used as far as it goes */
+    double max_error_A;         /* of the splines; 0: 2e-4 of the largest current */
+    double speed_rad_per_s;     /* mechanical; 0: the table is used as far as it goes */
     const hci_effects *effects; /* of the machine, which the voltage is of too; NULL: none */
 } hci_loop_task;
 

@@ -158,7 +158,8 @@ enum { VALUE_SIZE = 48 };
 static void put_value(const hci_drive_facts *f, char value[VALUE_SIZE])
 {
     value[0] = '\0';
-    if (f->reading == HCI_RESPONSE_GAINS) snprintf(value, VALUE_SIZE, ": %.3g times as large", f->reading_value);
+    if (f->reading == HCI_RESPONSE_GAINS)
+        snprintf(value, VALUE_SIZE, ": %.3g times as large", f->reading_value);
     if (f->reading == HCI_RESPONSE_DELAY) snprintf(value, VALUE_SIZE, ": %.3g us", 1e6 * f->reading_value);
     if (f->reading == HCI_RESPONSE_SCALE) snprintf(value, VALUE_SIZE, " by %.4g", f->reading_value);
     if (f->reading == HCI_RESPONSE_FREQUENCY)

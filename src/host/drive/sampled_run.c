@@ -51,7 +51,8 @@ static void set_loop(const hci_drive_data *d, run *r)
     pi->pi[1] = (hci_pi){d->kp_q_ohm, d->ki_q_ohm_per_s};
     pi->filter = hci_drive_filter_share(d);
     pi->decoupled = d->decoupling != HCI_DECOUPLING_NONE;
-    pi->delay_steps = (unsigned)floor(d->computing_delay_s / d->sample_s * r->drive.control.current_every + 0.5);
+    pi->delay_steps =
+        (unsigned)floor(d->computing_delay_s / d->sample_s * r->drive.control.current_every + 0.5);
     pi->modulation = d->modulation;
     r->drive.dead_time =
         (hci_dead_time){d->dc_link_voltage_V * hci_drive_dead_share(d), d->dead_time_crossing_A};

@@ -7,11 +7,11 @@
 #include "host/drive/machine_model.h"
 
 typedef struct {
-    const hci_drive_data *drive;     /* fitted */
-    const hci_machine_model *plant;  /* that is driven, with its effects */
-    const hci_machine_model *known;  /* by the decoupling */
-    const hci_loop_f32 *loop;        /* of one level of torque */
-    float *memory;                   /* of the tables: hci_loop_floats with HCI_LOOP_FEEDFORWARD */
+    const hci_drive_data *drive;    /* fitted */
+    const hci_machine_model *plant; /* that is driven, with its effects */
+    const hci_machine_model *known; /* by the decoupling */
+    const hci_loop_f32 *loop;       /* of one level of torque */
+    float *memory;                  /* of the tables: hci_loop_floats with HCI_LOOP_FEEDFORWARD */
 } hci_sampled_drive;
 
 /* The torque over whole electrical turns. NAN where the state left the finite numbers. */

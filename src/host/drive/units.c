@@ -71,7 +71,8 @@ static void look_at_inductance(const hci_drive_data *d, const hci_machine_data *
                  "an inductance of %.4g H with a resistance of %.4g ohm has a time constant of %.3g s, "
                  "which no usual motor has; is %s, or the resistance in another unit?",
                  w.inductance_H, w.resistance_ohm, time_s,
-                 is_large ? "the inductance in mH" : "the inductance a thousand times as large, mH in place of uH");
+                 is_large ? "the inductance in mH"
+                          : "the inductance a thousand times as large, mH in place of uH");
     if (isfinite(share))
         hci_note_add(remark, "at the rated current of %.4g A it makes %.3g times the flux of the magnets",
                      m->rated_current_A, share);
@@ -90,11 +91,12 @@ static void look_at_bandwidth(const hci_drive_data *d, const hci_machine_data *m
     const bool by_gain = !isnan(by_gain_Hz);
     const double found_Hz = by_gain ? by_gain_Hz : d->bandwidth_Hz, sample_s = hci_drive_sample_s(d);
     if (!(found_Hz > 0.0) || !(found_Hz * sample_s < LEAST_BANDWIDTH)) return;
-    hci_note_add(remark,
-                 "%s: the bandwidth of the current loop is %.3g Hz%s, a sample is %g s: expected some "
-                 "hundredths of the sampling frequency, such as %.3g Hz; is `bandwidth` in kHz, or `current_kp` "
-                 "in another unit than V/A?",
-                 file, found_Hz, by_gain ? " by k_p and L" : "", sample_s, 0.032 / sample_s);
+    hci_note_add(
+        remark,
+        "%s: the bandwidth of the current loop is %.3g Hz%s, a sample is %g s: expected some "
+        "hundredths of the sampling frequency, such as %.3g Hz; is `bandwidth` in kHz, or `current_kp` "
+        "in another unit than V/A?",
+        file, found_Hz, by_gain ? " by k_p and L" : "", sample_s, 0.032 / sample_s);
 }
 
 void hci_drive_remark_units(const hci_drive_data *drive, const hci_machine_data *machine, hci_note *remark)

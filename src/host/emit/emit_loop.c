@@ -107,7 +107,11 @@ static void write_figures(const emission *e, hci_output *out)
                     hci_emission_number(e->request->drive->dc_link_voltage_V, low));
     write_rpm(out, " does for all orders up to ", e->set.voltage_rad_per_s);
     write_rpm(out, ", the sampling up to ", e->set.sampled_rad_per_s);
-    hci_output_text(out, ".\n *          Above that an order ends where it does no good any more: another dc link\n *          wants another table.\n * CRC-32:  %08" PRIx32 " (IEEE 802.3) of the waves.\n", loop->crc32);
+    hci_output_text(out,
+                    ".\n *          Above that an order ends where it does no good any more: another dc "
+                    "link\n *          wants another table.\n * CRC-32:  %08" PRIx32
+                    " (IEEE 802.3) of the waves.\n",
+                    loop->crc32);
     hci_output_text(out, " * Input:   FNV-1a %016" PRIx64 "\n */\n", e->request->input_hash);
 }
 

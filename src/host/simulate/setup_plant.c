@@ -60,8 +60,7 @@ static hci_status need_winding(const hci_setup_task *b)
 static void take_difference(const hci_setup_task *b, hci_plant_inductance *given)
 {
     if (fabs(given->d_H - given->q_H) <= 1e-9 * given->q_H) return;
-    const double left_H =
-        hci_effects_take_saliency(&b->machine->model, b->effects, &given->d_H, &given->q_H);
+    const double left_H = hci_effects_take_saliency(&b->machine->model, b->effects, &given->d_H, &given->q_H);
     if (left_H == 0.0)
         hci_note_add(&b->setup->remark,
                      "inductance_d and inductance_q differ, and the reluctance torque that follows is in "

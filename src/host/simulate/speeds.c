@@ -282,8 +282,7 @@ static double harmful_from(const hci_speeds *s, int remedy)
 static hci_loop_task task_of(const grid *g)
 {
     const hci_speeds_request *q = g->request;
-    return (hci_loop_task){&g->machine, q->drive, q->levels, q->level_count, 0.0, 0.0,
-                           q->effects};
+    return (hci_loop_task){&g->machine, q->drive, q->levels, q->level_count, 0.0, 0.0, q->effects};
 }
 
 /* The level nearest to the torque. */

@@ -102,13 +102,11 @@ static void test_voltage_of_saturated_iron(void)
         const double theta = 2.0 * REF_PI * (double)k / (double)x.samples;
         const double id = x.value[HCI_TURN_CURRENT][k], iq = x.value[HCI_TURN_CURRENT + 1][k];
         const double d = slope(HCI_TURN_CURRENT, theta), q = slope(HCI_TURN_CURRENT + 1, theta);
-        TEST_ASSERT_DOUBLE_WITHIN(1e-8,
-                                  L_d * d - L_q * iq + 4.0 / 3.0 * C * iq * q - 4.0 / 3.0 * C * id * iq,
+        TEST_ASSERT_DOUBLE_WITHIN(1e-8, L_d * d - L_q * iq + 4.0 / 3.0 * C * iq * q - 4.0 / 3.0 * C * id * iq,
                                   x.value[HCI_TURN_VOLTAGE][k]);
-        TEST_ASSERT_DOUBLE_WITHIN(1e-8,
-                                  L_q * q + L_d * id + E / 2.0 + 4.0 / 3.0 * C * (d * iq + id * q) +
-                                      2.0 / 3.0 * C * iq * iq,
-                                  x.value[HCI_TURN_VOLTAGE + 1][k]);
+        TEST_ASSERT_DOUBLE_WITHIN(
+            1e-8, L_q * q + L_d * id + E / 2.0 + 4.0 / 3.0 * C * (d * iq + id * q) + 2.0 / 3.0 * C * iq * iq,
+            x.value[HCI_TURN_VOLTAGE + 1][k]);
     }
 }
 

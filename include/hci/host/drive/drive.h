@@ -146,9 +146,9 @@ void hci_drive_remark_saliency(const hci_drive_data *drive, const hci_machine_da
  * bandwidth far from the sampling, an inductance whose time constant or flux no motor has. */
 void hci_drive_remark_units(const hci_drive_data *drive, const hci_machine_data *machine, hci_note *remark);
 
-/* Says of a drive that was fitted and has fewer counts in an electrical turn than twice the highest order of a
- * table, how many it takes, and what mean torque the table makes where it is read so. mean_Nm: that; NAN: it
- * is not known. */
+/* Says of a drive that was fitted and has fewer counts in an electrical turn than twice the highest order of
+ * a table, how many it takes, and what mean torque the table makes where it is read so. mean_Nm: that; NAN:
+ * it is not known. */
 void hci_drive_remark_counts(const hci_drive_data *drive, int pole_pairs, double highest_order,
                              double torque_Nm, double mean_Nm, hci_note *remark);
 

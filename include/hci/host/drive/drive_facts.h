@@ -18,7 +18,7 @@ extern "C" {
       "an "                                                                                                  \
       "analyser does")                                                                                       \
     X(HCI_RESPONSE_FREQUENCY, "frequency",                                                                   \
-      "the frequencies are in another unit than Hz: multiply the column `frequency_Hz`")                      \
+      "the frequencies are in another unit than Hz: multiply the column `frequency_Hz`")                     \
     X(HCI_RESPONSE_SCALE, "scale",                                                                           \
       "current and reference are in different units, such as peak and rms: multiply the gains")              \
     X(HCI_RESPONSE_HALF_TURN, "half_turn",                                                                   \

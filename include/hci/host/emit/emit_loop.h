@@ -39,10 +39,10 @@ typedef struct {
     double max_error_A;            /* of a table against its waves, at each level's torque */
     double peak_A;                 /* largest current, length of the vector */
     double torque_low_Nm, torque_high_Nm; /* of the levels */
-    double coarse_mean_Nm; /* mean torque at torque_high_Nm, read at encoder_counts that are fewer than
-                            * twice the highest order takes, at low speed; NAN: they are not */
-    double dc_link_V;      /* that voltage_rad_per_s is for */
-    double lead_s;                        /* delay of the loop at low frequency */
+    double coarse_mean_Nm;     /* mean torque at torque_high_Nm, read at encoder_counts that are fewer than
+                                * twice the highest order takes, at low speed; NAN: they are not */
+    double dc_link_V;          /* that voltage_rad_per_s is for */
+    double lead_s;             /* delay of the loop at low frequency */
     double voltage_rad_per_s;  /* mechanical: above it the voltage does not do for all orders; HUGE_VAL */
     double sampled_rad_per_s;  /* mechanical: above it the sampling does not do for all orders; HUGE_VAL */
     double measured_rad_per_s; /* mechanical: above it orders lie beyond the measured response; HUGE_VAL */
