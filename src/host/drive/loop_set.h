@@ -5,8 +5,9 @@
 #include "hci/effects/effect.h"
 #include "hci/host/drive/drive.h"
 #include "hci/loop.h"
+#include "host/drive/sampled_run.h"
 
-enum { HCI_LOOP_MOST_LEVELS = 33, HCI_LOOP_MOST_ORDERS = 128, HCI_LOOP_MOST_POINTS = 4096 };
+enum { HCI_LOOP_MOST_LEVELS = 33, HCI_LOOP_MOST_POINTS = 4096 };
 
 typedef struct {
     const hci_machine_data *machine; /* fitted */

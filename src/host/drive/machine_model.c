@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "host/base/memory.h"
-#include "host/machine/effect_winding.h"
+#include "host/drive/effect_winding.h"
 
 enum { POINTS_PER_TURN = 4096 };
 

@@ -6,6 +6,8 @@
 #include "hci/loop.h"
 #include "host/drive/machine_model.h"
 
+enum { HCI_LOOP_MOST_ORDERS = 128 }; /* of a table */
+
 typedef struct {
     const hci_drive_data *drive;    /* fitted */
     const hci_machine_model *plant; /* that is driven, with its effects */

@@ -5,7 +5,7 @@
 
 #include "hci/machine/frames.h"
 #include "host/base/memory.h"
-#include "host/machine/effect_winding.h"
+#include "host/drive/effect_winding.h"
 #include "host/numeric/fft.h"
 
 enum { SAMPLES_OF_A_TURN = 2048 };

@@ -3,8 +3,6 @@
 #include <float.h>
 #include <math.h>
 
-#include "host/drive/loop_set.h"
-
 enum { SPEEDS = 20, CHOICES = 8 };
 
 /* Of the mean torque: less is not told apart. */

@@ -5,7 +5,7 @@
 
 #include "hci/machine/frames.h"
 #include "host/base/memory.h"
-#include "host/machine/effect_winding.h"
+#include "host/drive/effect_winding.h"
 #include "host/simulate/setup_task.h"
 
 enum { POINTS_PER_TURN = 4096 };

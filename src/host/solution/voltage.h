@@ -3,7 +3,7 @@
 #define HCI_SRC_HOST_SOLUTION_VOLTAGE_H
 
 #include "hci/host/solve/solve.h"
-#include "host/machine/effect_winding.h"
+#include "host/drive/effect_winding.h"
 
 typedef struct {
     const hci_machine_data *machine;

@@ -1,4 +1,4 @@
-#include "host/machine/effect_winding.h"
+#include "host/drive/effect_winding.h"
 
 #include <math.h>
 

@@ -1,6 +1,6 @@
 /* What effects are to a winding: the voltage that they add, and inductance. */
-#ifndef HCI_SRC_HOST_MACHINE_EFFECT_WINDING_H
-#define HCI_SRC_HOST_MACHINE_EFFECT_WINDING_H
+#ifndef HCI_SRC_HOST_DRIVE_EFFECT_WINDING_H
+#define HCI_SRC_HOST_DRIVE_EFFECT_WINDING_H
 
 #include "hci/effects/effect.h"
 
