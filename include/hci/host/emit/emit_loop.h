@@ -17,8 +17,9 @@ extern "C" {
 typedef struct {
     const char *name;                /* of the table and its two files: a C identifier */
     const hci_machine_data *machine; /* as read */
-    const char *machine_folder;   /* whose effects.csv acts on what is told between levels; NULL: not told */
-    hci_drive_data *drive;        /* as read; its defaults are filled in */
+    const char *machine_folder; /* whose effects.csv acts on the voltages, and on what is told between levels;
+                                   NULL: neither */
+    hci_drive_data *drive;      /* as read; its defaults are filled in */
     const hci_loop_level *levels; /* ascending by torque, equally far apart: 1, 2, or an odd number */
     size_t level_count;           /* entries of levels */
     double max_error_A;           /* of a table over the angle; 0: 2e-4 of the largest current */

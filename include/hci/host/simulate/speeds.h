@@ -57,13 +57,13 @@ typedef struct {
 /* What is asked for. */
 typedef struct {
     const hci_machine_data *machine; /* as read */
-    const hci_effects *effects;      /* of the simulated machine, which its tables do not know; NULL: none */
-    hci_drive_data *drive;           /* as read; its defaults are filled in */
-    const hci_loop_level *levels;    /* of torque, as of hci_emit_loop */
-    size_t level_count;              /* entries of levels */
-    double torque_Nm;                /* asked of the table */
-    const double *speeds_rad_per_s;  /* mechanical, not 0, of one sign, ascending in size */
-    size_t speed_count;              /* entries of speeds_rad_per_s */
+    const hci_effects *effects; /* of the simulated machine, in the voltages of its tables too; NULL: none */
+    hci_drive_data *drive;      /* as read; its defaults are filled in */
+    const hci_loop_level *levels;   /* of torque, as of hci_emit_loop */
+    size_t level_count;             /* entries of levels */
+    double torque_Nm;               /* asked of the table */
+    const double *speeds_rad_per_s; /* mechanical, not 0, of one sign, ascending in size */
+    size_t speed_count;             /* entries of speeds_rad_per_s */
     double model_error;     /* 0.1: R, L and flux of the machine are 10 % off in all ways; 0: not asked */
     hci_progress *progress; /* may be NULL */
     void *progress_context; /* first argument of progress */
