@@ -272,7 +272,9 @@ struct hci_effect_type {
     const hci_effect_type *when_equal; /* of three values, one a phase: what equal ones look like; or NULL */
     const hci_effect_type *seen_as;    /* what recordings show of it where it is small, and what it is called
                                         * unless it explains decisively more; or NULL */
-    bool is_angle_zero;                /* turns the zero of the angle */
+    bool in_series;          /* a series in the currents has it in it: not looked for beside one, nor
+                              * held against one */
+    bool is_angle_zero;      /* turns the zero of the angle */
     bool any_phase;          /* a torque of any order and phase without current: a turned angle is one, too */
     const size_t *resonance; /* two parameters, natural frequency in Hz and damping ratio, that a diagnosis
                               * looks for on a grid, since no small step from nothing finds them */

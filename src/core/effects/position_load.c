@@ -87,11 +87,9 @@ static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *senso
 
 #define EXPECTED_RAD 0.1 /* at the largest current */
 
-/* Beside a series in the currents it would be a part of that: in iron that saturates the flux turns with the
- * load. */
 static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
 {
-    if (survey->current_A > 0.0 && survey->richness == 0)
+    if (survey->current_A > 0.0)
         hci_effect_propose(to, PER_AMPERE, 1, 0.0, 2.0, EXPECTED_RAD / survey->current_A);
 }
 
@@ -105,6 +103,7 @@ const hci_effect_type hci_effect_position_load = {
     HCI_EFFECT_PARAMETERS(PARAMETER),
     .correction = CORRECTION,
     .is_small = true,
+    .in_series = true, /* in iron that saturates the flux turns with the load */
     .seen_as = &hci_effect_reluctance,
     .told_by = "another current i_d",
     .propose = propose,

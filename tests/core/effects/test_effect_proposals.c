@@ -226,9 +226,6 @@ static void test_what_cannot_be_seen(void)
     proposes("magnet_temperature", &s, 0, NULL);
     proposes("position_eccentricity", &s, 0, NULL);
     s.both_directions = true;
-    s.richness = 1;
-    proposes("position_load", &s, 0, NULL);
-    s.richness = 0;
     s.current_A = 0.0;
     proposes("iron_drag", &s, 0, NULL);
     proposes("position_load", &s, 0, NULL);

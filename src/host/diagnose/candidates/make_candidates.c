@@ -268,7 +268,7 @@ static bool survey_residual(const hci_candidates_source *s, const hci_candidate_
 static bool is_looked_for(const hci_candidates_source *s, size_t r, double current_A)
 {
     const hci_effect_type *type = hci_effect_type_at(r);
-    return type->propose && !(s->denied && s->denied[r]) &&
+    return type->propose && !(s->denied && s->denied[r]) && !(type->in_series && s->richness > 0) &&
            (!s->magnetic_only || is_magnetic(s, type, current_A));
 }
 

@@ -260,6 +260,13 @@ static bool is_better(const merit *x, const merit *than)
     return x->gain > than->gain + HCI_DECISIVE && x->white + HCI_DECISIVE < than->white;
 }
 
+/* Takes out of a model what a series in the currents has in it. */
+static void parts_of_series_leave(hci_candidates *model)
+{
+    for (size_t r = 0; r < hci_candidate_types(); ++r)
+        if (hci_candidate_type(r)->in_series) hci_candidates_remove_type(model, hci_candidate_type(r));
+}
+
 hci_status hci_search_yield(hci_search *s, hci_fitted_model *model, hci_yield *yield, hci_note *note)
 {
     hci_disbelieved *x = &s->disbelieved;
@@ -267,6 +274,7 @@ hci_status hci_search_yield(hci_search *s, hci_fitted_model *model, hci_yield *y
     bool trivial = false;
     *yield = HCI_YIELD_NOTHING;
     if (!x->type) return HCI_OK;
+    if (hci_candidates_have_series(&model->candidates)) parts_of_series_leave(&x->model.candidates);
     hci_status status = merit_of(s, &x->model, &other, note);
     if (!status) status = merit_of(s, model, &believed, note);
     if (status) return status;
