@@ -3,6 +3,7 @@
 # other test looks at must not change unnoticed. After a change that is meant: --renew, and look at the differences.
 #   cli_kept_currents.sh SOURCE_DIR BUILD_DIR HCI_SOLVE [--renew]
 . "$1/tests/support/common.sh"
+use_plain_build
 . "$source_dir/tests/cli/kept_inputs.sh"
 kept auto 0 solve $a --target $t --auto --report
 kept limited 1 solve m --target $t --harmonics $h --limit-current 12 --limit-voltage 40 --speed 1500 --report

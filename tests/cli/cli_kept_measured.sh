@@ -3,6 +3,7 @@
 # other test looks at must not change unnoticed. After a change that is meant: --renew, and look at the differences.
 #   cli_kept_measured.sh SOURCE_DIR BUILD_DIR HCI_SOLVE [--renew]
 . "$1/tests/support/common.sh"
+use_plain_build
 . "$source_dir/tests/cli/kept_inputs.sh"
 kept check 0 check data/fem_c/machine data/fem_c/runs/I0.csv data/fem_c/runs/id0_iq6.csv
 kept check_simple 0 check simple slow.csv back.csv fast.csv

@@ -1,5 +1,4 @@
 # Inputs of the tests whose results are kept, and kept_all: sourced by cli_kept_*.sh, after common.sh.
-use_plain_build
 cd "$source_dir" || exit 1
 export OPENBLAS_NUM_THREADS=1
 a=data/machine_a h=data/scenarios/02/harmonics.csv t=data/scenarios/02/target.csv
