@@ -213,6 +213,9 @@ check "a loop that does not peak" [ "$(grep -c 'answers a reference' "$work/stdo
 sed '$a pwm_frequency,10,,t\ndead_time,2,us,t' $drive >"$work/unit.csv"
 run 0 check data/machine_a --drive "$work/unit.csv"
 says 'note: .*`pwm_frequency` of 10 Hz is 0.001 periods in a `current_sample_time` of 0.0001 s.*is it in kHz'
+sed 's/^\(current_sample_time,\)100,us/\150,ms/' $drive >"$work/unit.csv"
+run 0 check data/machine_a --drive "$work/unit.csv"
+says 'note: .*`current_sample_time` of 0.05 s.*such as 50 us'
 sed '$a bandwidth,0.5,,t' $drive >"$work/unit.csv"
 run 0 simulate data/machine_a --table "$work/a" --drive "$work/unit.csv" --speeds 300
 says 'note: .*bandwidth of the current loop is 0.5 Hz.*is `bandwidth` in kHz'

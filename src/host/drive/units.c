@@ -5,6 +5,20 @@
 #include "host/base/quote.h"
 #include "host/machine/torque_constant.h"
 
+/* ---- current_sample_time ---- */
+
+#define LONGEST_SAMPLE_s 2e-3
+
+static void look_at_sample(const hci_drive_data *d, const char *file, hci_note *remark)
+{
+    const double sample_s = hci_drive_sample_s(d);
+    if (sample_s > LONGEST_SAMPLE_s)
+        hci_note_add(remark,
+                     "%s: `current_sample_time` of %g s: current loops are sampled some thousand times a "
+                     "second; is it in a smaller unit, such as %g us?",
+                     file, sample_s, 1e3 * sample_s);
+}
+
 /* ---- pwm_frequency ---- */
 
 /* Periods of the PWM in a sample: half of one where both edges are sampled, some where a slow loop runs on a
@@ -103,6 +117,7 @@ void hci_drive_remark_units(const hci_drive_data *drive, const hci_machine_data 
 {
     char path[HCI_QUOTE_PATH_SIZE];
     const char *file = drive->path[0] ? hci_quote_path(drive->path, path) : "drive.csv";
+    look_at_sample(drive, file, remark);
     look_at_pwm(drive, file, remark);
     look_at_bandwidth(drive, machine, file, remark);
     look_at_inductance(drive, machine, remark);
