@@ -7,6 +7,7 @@
 
 /* ---- current_sample_time ---- */
 
+/* Of slow loops; 25 to 250 us are usual. */
 #define LONGEST_SAMPLE_s 2e-3
 
 static void look_at_sample(const hci_drive_data *d, const char *file, hci_note *remark)
