@@ -6,11 +6,12 @@
 #include "cli/commands.h"
 #include "cli/terminal/say.h"
 #include "cli/terminal/terminal.h"
+#include "cli/tune/tune_conclude.h"
 #include "cli/tune/tune_found.h"
 #include "cli/tune/tune_options.h"
 #include "cli/tune/tune_sensor_zero.h"
+#include "cli/tune/tune_show.h"
 #include "cli/tune/tune_size.h"
-#include "cli/tune/tune_words.h"
 
 static hci_status steps(const cli_arguments *a, cli_tuning *t, hci_note *note)
 {
@@ -63,10 +64,11 @@ const cli_command cli_tune = {
     .takes_more_words = true,
     .names_files = true,
     .word_kind = CLI_FILE,
-    .example = "  hci-solve simulate data/machine_a data/drive/driven.csv -o out/driven\n"
-               "  hci-solve tune out/driven/trajectory.csv --pole-pairs 2 --kv 39 --torque 2.46 -o out/tuned\n"
-               "\nExit codes: 0 done; 1 not enough in the logs, a convention is broken, or something is left "
-               "open; " CLI_EXIT_ERRORS,
+    .example =
+        "  hci-solve simulate data/machine_a data/drive/driven.csv -o out/driven\n"
+        "  hci-solve tune out/driven/trajectory.csv --pole-pairs 2 --kv 39 --torque 2.46 -o out/tuned\n"
+        "\nExit codes: 0 done; 1 not enough in the logs, a convention is broken, or something is left "
+        "open; " CLI_EXIT_ERRORS,
     .source = "cli/tune.c",
     .guide = "tune.md",
     .run = run,

@@ -1,0 +1,175 @@
+#include "cli/tune/tune_facts.h"
+
+#include <math.h>
+
+#include "cli/tune/tune_current.h"
+#include "cli/tune/tune_waveforms.h"
+
+/* Of the data sheet, that a measured back-EMF may be off and not be a contradiction. */
+#define OFF_SHEET 0.15
+
+bool cli_tune_is_off_sheet(const cli_tuning *t)
+{
+    return t->has_emf && fabs(t->emf_to_sheet - 1.0) > OFF_SHEET;
+}
+
+bool cli_tune_misses_slots(const cli_tuning *t)
+{
+    return t->cogging_reach > 0.0 && cli_tune_order_of_slots(t) > t->cogging_reach + HCI_ORDER_TOLERANCE;
+}
+
+double cli_tune_reach_of_slopes(const cli_tuning *t)
+{
+    double reach = 0.0;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        if (t->runs.run[k].torque_source == HCI_TORQUE_NONE) continue;
+        if (!(t->runs.run[k].torque_reach > 0.0)) return 0.0;
+        reach = fmax(reach, t->runs.run[k].torque_reach);
+    }
+    const double slots = cli_tune_order_of_slots(t);
+    return reach < (slots > 0.0 ? slots : HCI_USUAL_ORDER) ? reach : 0.0;
+}
+
+bool cli_tune_lacks_sign(const cli_tuning *t)
+{
+    bool lacks = false;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        if (r->torque_source == HCI_TORQUE_MEASURED || r->current_way != 0) return false;
+        lacks = lacks || r->torque_source == HCI_TORQUE_HOLDING ||
+                (r->torque_source == HCI_TORQUE_INERTIA && !cli_tune_has_no_current(t, r));
+    }
+    return lacks;
+}
+
+bool cli_tune_is_uncounted(const cli_tuning *t)
+{
+    return t->is_solved && t->is_own && !t->counts_pole_pairs;
+}
+
+/* Of two mean speeds, in one direction, that tell nothing that one does not. */
+#define ONE_SPEED 1.2
+
+/* Whether all that a torque sensor has measured in time is of one speed: one that reads late turns the orders
+ * by an angle that is not told then. */
+static bool has_one_speed(const cli_tuning *t)
+{
+    double least = HUGE_VAL, most = -HUGE_VAL;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        double mean = 0.0;
+        if (r->torque_source != HCI_TORQUE_MEASURED || !r->time_s || !r->speed_rad_per_s) continue;
+        for (size_t n = 0; n < r->count; ++n)
+            mean += r->speed_rad_per_s[n] / (double)r->count;
+        least = fmin(least, mean);
+        most = fmax(most, mean);
+    }
+    return least * most > 0.0 && fmax(fabs(least), fabs(most)) < ONE_SPEED * fmin(fabs(least), fabs(most));
+}
+
+bool cli_tune_hangs_on_lag(const cli_tuning *t)
+{
+    return t->is_solved && t->solution.expected.state == HCI_RIPPLE_KNOWN && has_one_speed(t);
+}
+
+bool cli_tune_lacks_torque(const cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count; ++k)
+        if (t->runs.run[k].torque_source != HCI_TORQUE_NONE || t->runs.run[k].needs_inertia) return false;
+    return t->runs.count > 0;
+}
+
+const char *cli_tune_torque_like(const cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count; ++k)
+        if (t->runs.run[k].torque_like[0]) return t->runs.run[k].torque_like;
+    return NULL;
+}
+
+/* Times the noise that a ripple may have without being looked at. */
+#define NEAR_NOISE 1.5
+
+double cli_tune_unexplained_Nm(const cli_tuning *t)
+{
+    double most_Nm = 0.0;
+    for (size_t k = 0; k < t->diagnosis.runs; ++k) {
+        const hci_run_errors *r = &t->diagnosis.run[k];
+        if (r->ripple_after_Nm > NEAR_NOISE * r->noise_floor_Nm) most_Nm = fmax(most_Nm, r->ripple_after_Nm);
+    }
+    return most_Nm;
+}
+
+void cli_tune_swing_of(const cli_tuning *t, double *before_Nm, double *after_Nm)
+{
+    hci_tuning_swing(&t->solution, before_Nm, after_Nm);
+    if (t->tuning.table_Nm > 0.0) *after_Nm = t->tuning.table_Nm;
+}
+
+double cli_tune_largest_recorded_Nm(const cli_tuning *t)
+{
+    double most_Nm = 0.0;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        for (size_t n = 0; n < r->count && r->torque_Nm; ++n)
+            most_Nm = fmax(most_Nm, fabs(r->torque_Nm[n]));
+        for (size_t n = 0; n < 3 * r->count; ++n)
+            most_Nm = fmax(most_Nm, fabs(r->i_A[n]) * t->reading.run.torque_constant_Nm_per_A);
+    }
+    return most_Nm;
+}
+
+/* Times what was recorded and what is wanted, beyond which a ripple was not seen but made by the model. */
+#define NEVER_SEEN 10.0
+
+bool cli_tune_is_never_seen(const cli_tuning *t)
+{
+    double before_Nm, after_Nm;
+    if (!t->is_solved || t->runs.count == 0) return false;
+    hci_tuning_swing(&t->solution, &before_Nm, &after_Nm);
+    return before_Nm > NEVER_SEEN * (cli_tune_largest_recorded_Nm(t) + t->mean_Nm);
+}
+
+/* Of the wanted mean torque, that may be missing and not be spoken of. */
+#define NEAR_WANTED 0.005
+
+bool cli_tune_misses_torque(const cli_tuning *t)
+{
+    const double much_Nm = t->mean_Nm > 0.0 ? NEAR_WANTED * t->mean_Nm : t->solution.tolerance_Nm;
+    return t->is_solved && fabs(cli_tune_made_Nm(t) - t->mean_Nm) > much_Nm;
+}
+
+double cli_tune_largest_recorded_A(const cli_tuning *t)
+{
+    double most_A = 0.0;
+    for (size_t k = 0; k < t->runs.count; ++k)
+        for (size_t n = 0; n < 3 * t->runs.run[k].count; ++n)
+            most_A = fmax(most_A, fabs(t->runs.run[k].i_A[n]));
+    return most_A;
+}
+
+/* Times the largest recorded current, beyond which a wrong unit is more likely than a load that was not
+ * recorded. */
+#define FAR_BEYOND 100.0
+
+bool cli_tune_is_far_beyond(const cli_tuning *t)
+{
+    const double most_A = cli_tune_largest_recorded_A(t);
+    return t->is_solved && most_A > 0.0 && t->solution.peak_phase_current_A > FAR_BEYOND * most_A;
+}
+
+bool cli_tune_is_of_no_use(const cli_tuning *t)
+{
+    double before_Nm, after_Nm;
+    if (!t->is_solved) return false;
+    if (!hci_tuning_knows_ripple(&t->solution)) return !t->has_emf;
+    cli_tune_swing_of(t, &before_Nm, &after_Nm);
+    if (before_Nm < t->solution.tolerance_Nm) return !(t->mean_Nm > 0.0);
+    return after_Nm >= before_Nm;
+}
+
+double cli_tune_rounded_up(double value)
+{
+    if (!(value > 0.0) || !isfinite(value)) return value;
+    const double digit = pow(10.0, floor(log10(value)) - 2.0);
+    return ceil(value / digit - 1e-9) * digit;
+}

@@ -1,0 +1,62 @@
+/* What the steps of tune leave open or make doubtful, as its words and its verdict ask for it. Uses
+ * tune_steps. */
+#ifndef HCI_CLI_TUNE_FACTS_H
+#define HCI_CLI_TUNE_FACTS_H
+
+#include "cli/tune/tune_steps.h"
+
+/* Whether the measured back-EMF contradicts the data sheet. */
+bool cli_tune_is_off_sheet(const cli_tuning *tune);
+
+/* Whether slots and poles say of cogging torque where the logs were not looked at. */
+bool cli_tune_misses_slots(const cli_tuning *tune);
+
+/* The order up to which recordings show a torque of the angle by the slope of the speed; 0: where another one
+ * shows it, or no slot is known to be beyond it. */
+double cli_tune_reach_of_slopes(const cli_tuning *tune);
+
+/* Whether the sign of a current is all that a torque is told by, and nothing tells it. */
+bool cli_tune_lacks_sign(const cli_tuning *tune);
+
+/* Whether nothing in the recordings counts the pole pairs that were given. */
+bool cli_tune_is_uncounted(const cli_tuning *tune);
+
+/* Whether the bound is of recordings at one speed, which do not tell a torque sensor that reads late. */
+bool cli_tune_hangs_on_lag(const cli_tuning *tune);
+
+/* Whether no log has a torque of any kind. */
+bool cli_tune_lacks_torque(const cli_tuning *tune);
+
+/* A column that was not read and may be the torque; NULL: none. */
+const char *cli_tune_torque_like(const cli_tuning *tune);
+
+/* The largest ripple that is left unexplained in a recording, rms; 0 where all are near their noise. */
+double cli_tune_unexplained_Nm(const cli_tuning *tune);
+
+/* Peak to peak in the model, of the plain sine and with the table: as it was read back, or of the currents
+ * where that is not known. */
+void cli_tune_swing_of(const cli_tuning *tune, double *before_Nm, double *after_Nm);
+
+/* The largest torque that a recording shows by a sensor, by an acceleration or by its currents. */
+double cli_tune_largest_recorded_Nm(const cli_tuning *tune);
+
+/* The largest phase current in a recording. */
+double cli_tune_largest_recorded_A(const cli_tuning *tune);
+
+/* Whether the ripple of the model is far beyond all torque that a recording shows. */
+bool cli_tune_is_never_seen(const cli_tuning *tune);
+
+/* Whether the table makes another mean torque than is wanted. */
+bool cli_tune_misses_torque(const cli_tuning *tune);
+
+/* Whether the peak current of the table is so far beyond the recorded ones that a wrong unit is likely. */
+bool cli_tune_is_far_beyond(const cli_tuning *tune);
+
+/* A table with which the known ripple is not smaller in the very model that it was solved for, or which takes
+ * none away since none was found. */
+bool cli_tune_is_of_no_use(const cli_tuning *tune);
+
+/* To three digits, of a limit. */
+double cli_tune_rounded_up(double value);
+
+#endif

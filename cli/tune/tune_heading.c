@@ -1,0 +1,347 @@
+#include "cli/tune/tune_heading.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/tune/tune_cover.h"
+#include "cli/tune/tune_facts.h"
+#include "cli/tune/tune_size.h"
+#include "cli/tune/tune_suspect.h"
+
+/* What a figure of the model leaves open. */
+static const char *not_known(const cli_tuning *t)
+{
+    return t->is_own && (!t->has_emf || t->emf_is_size_alone) && !t->has_load
+               ? "what harmonics of the real back-EMF add under load is not known"
+               : "what is left on the machine is not known";
+}
+
+static const char *becomes(double before_Nm, double after_Nm)
+{
+    return after_Nm < before_Nm ? "falls to" : "becomes one of";
+}
+
+/* A bound above what a plain sine leaves promises nothing. */
+static void say_bound(const hci_expected_ripple *e, double before_Nm, double after_Nm, char *text,
+                      size_t size)
+{
+    if (e->peak_to_peak_Nm < before_Nm)
+        snprintf(
+            text, size,
+            "A ripple of %.3g N·m from peak to peak falls to at most %.3g N·m on the machine (95 %%), of "
+            "which the table %.2g",
+            before_Nm, cli_tune_rounded_up(e->peak_to_peak_Nm), e->table_peak_to_peak_Nm);
+    else
+        snprintf(text, size,
+                 "A ripple of %.3g N·m from peak to peak %s %.3g N·m in the model; on the machine it is at "
+                 "most %.3g N·m (95 %%), so that the recordings do not promise less than without the table",
+                 before_Nm, becomes(before_Nm, after_Nm), after_Nm, cli_tune_rounded_up(e->peak_to_peak_Nm));
+}
+
+static void say_fall(cli_tuning *t, char *text, size_t size)
+{
+    const hci_expected_ripple *e = &t->solution.expected;
+    double before_Nm, after_Nm;
+    cli_tune_swing_of(t, &before_Nm, &after_Nm);
+    if (cli_tune_is_never_seen(t))
+        snprintf(
+            text, size,
+            "The model has a ripple of %.3g N·m, and no recording shows more torque than %.3g N·m: it is not "
+            "believable, and the table is not to be used",
+            before_Nm, cli_tune_largest_recorded_Nm(t));
+    else if (hci_expected_ripple_is_doubtful(e))
+        snprintf(text, size, "%s, so what the table leaves of a ripple of %.3g N·m is not to be relied on",
+                 isfinite(e->unbelievable_order) ? "A back-EMF that is not believable is in the model"
+                 : t->diagnosis.verdict < HCI_DIAGNOSIS_PARTLY
+                     ? "The search for what makes the ripple ended before all was compared"
+                     : "The model does not explain the recordings",
+                 before_Nm);
+    else if (e->state == HCI_RIPPLE_KNOWN)
+        say_bound(e, before_Nm, after_Nm, text, size);
+    else
+        snprintf(text, size, "A ripple of %.3g N·m from peak to peak %s %.3g N·m in the model; %s", before_Nm,
+                 becomes(before_Nm, after_Nm), after_Nm, not_known(t));
+}
+
+/* What is not in the logs goes before what is. */
+static void say_lack_of_torque(const cli_tuning *t, char *text, size_t size)
+{
+    const char *column = cli_tune_torque_like(t);
+    if (column)
+        snprintf(
+            text, size,
+            "No log has a torque, so the table takes no cogging torque away; if the column `%s` is one, add "
+            "--column 'torque_Nm=%s'",
+            column, column);
+    else
+        snprintf(text, size, "No log has a torque, so the table takes no cogging torque away");
+}
+
+static void say_table(cli_tuning *t)
+{
+    hci_tuning *r = &t->tuning;
+    double before_Nm, after_Nm;
+    hci_tuning_swing(&t->solution, &before_Nm, &after_Nm);
+    if (cli_tune_lacks_torque(t) && !t->has_cogging && t->declared.model.cogging_count == 0)
+        say_lack_of_torque(t, r->heading, sizeof r->heading);
+    else if (t->size == CLI_TUNE_EXCESS)
+        cli_tune_say_excess(t, r->heading, sizeof r->heading);
+    else if (before_Nm >= t->solution.tolerance_Nm)
+        say_fall(t, r->heading, sizeof r->heading);
+    else if (cli_tune_unexplained_Nm(t) > 0.0)
+        snprintf(r->heading, sizeof r->heading,
+                 "Nothing certain was found that makes a ripple, but up to %.3g N·m rms of it is in the "
+                 "recordings",
+                 cli_tune_unexplained_Nm(t));
+    else
+        snprintf(r->heading, sizeof r->heading, "Nothing was found that would make a ripple");
+}
+
+static void append(cli_tuning *t, const char *format, ...) HCI_PRINTF(2, 3);
+
+/* One more thing that a reader of the heading alone has to know. */
+static void append(cli_tuning *t, const char *format, ...)
+{
+    char *heading = t->tuning.heading;
+    const size_t used = strlen(heading);
+    va_list values;
+    va_start(values, format);
+    vsnprintf(heading + used, sizeof t->tuning.heading - used, format, values);
+    va_end(values);
+}
+
+/* What else than the motor may be in the logs. */
+static void append_of_logs(cli_tuning *t)
+{
+    if (t->once_a_turn_Nm > 0.0 && t->is_solved)
+        append(
+            t,
+            "; %.3g N·m of it come once or twice a turn, and a load on the shaft makes that as well as the "
+            "motor: without that load the table adds them",
+            t->once_a_turn_Nm);
+    if (cli_tune_clipped(t) > 0 && t->is_solved)
+        append(t, "; currents in %zu of %zu logs are clipped, and what they tell is too small",
+               cli_tune_clipped(t), t->runs.count);
+    if (cli_tune_torque_clipped(t) > 0 && t->is_solved)
+        append(t, "; the torque in %zu of %zu logs is clipped, and what lies beyond is missing",
+               cli_tune_torque_clipped(t), t->runs.count);
+}
+
+/* What the size and the sign of a torque make doubtful. */
+static void append_of_doubt(cli_tuning *t)
+{
+    if (t->has_sensor_zero && t->is_solved)
+        append(t,
+               "; the torque without current is %.3g N·m with the motion on average, where friction brakes: "
+               "that "
+               "is taken for the zero of its sensor; if its sign is the other one instead (--column "
+               "torque=-COLUMN) the table doubles the ripple; one direction does not tell, a turn back does",
+               t->drives_Nm);
+    else if (t->drives_Nm > 0.0 && t->is_solved)
+        append(t,
+               "; the torque without current is %.3g N·m with the motion on average, where friction brakes: "
+               "either its zero is off, or its sign is the other one (--column torque=-COLUMN) and the table "
+               "doubles the ripple; one direction does not tell, a turn back does",
+               t->drives_Nm);
+    if (t->size == CLI_TUNE_LARGE)
+        append(t,
+               "; without current the torque varies by %.3g N·m, %.3g times the rated torque, and few motors "
+               "have so much: is the torque in N·m, and not in N·cm or lbf·in, and is Kv right?",
+               t->open_swing_Nm, t->open_swing_Nm / cli_tune_rated_Nm(t));
+}
+
+/* What the table needs of the drive, and does not do. */
+static void append_of_table(cli_tuning *t)
+{
+    append_of_logs(t);
+    if (t->is_solved && *t->solution.corrections)
+        append(t, "; this once the drive's sensors, where they are those of the logs, are corrected: %s",
+               t->solution.corrections);
+    append_of_doubt(t);
+    if (cli_tune_misses_torque(t))
+        append(t, "; the table makes %.4g N·m on average, and not the %.4g N·m that were wanted",
+               cli_tune_made_Nm(t), t->mean_Nm);
+    if (cli_tune_is_far_beyond(t))
+        append(t,
+               "; its peak current, %.3g A, is %.2g times the largest recorded one, %.3g A: are the rated "
+               "current and the torque in A and N·m?",
+               t->solution.peak_phase_current_A,
+               t->solution.peak_phase_current_A / cli_tune_largest_recorded_A(t),
+               cli_tune_largest_recorded_A(t));
+}
+
+/* What the recordings do not tell of the torque. */
+static void append_of_torque(cli_tuning *t)
+{
+    if (cli_tune_reach_of_slopes(t) > 0.0)
+        append(t, "; these recordings do not show cogging torque above order %.3g",
+               cli_tune_reach_of_slopes(t));
+    if (cli_tune_is_short(t) && t->is_solved)
+        append(t, "; the logs cover %.2g of a turn, and at least a whole one is needed to tell orders apart",
+               t->turns);
+    if (cli_tune_is_coarse(t) && t->is_solved && !(cli_tune_reach_of_slopes(t) > 0.0))
+        append(t, "; orders above %.3g were not looked at, since the samples lie too far apart",
+               t->highest_order);
+    if (cli_tune_hangs_on_lag(t))
+        append(t, "; unless the torque sensor reads late, which one speed does not tell");
+    if (t->mains_Hz > 0.0 && t->is_solved)
+        append(t, "; order %.5g is %.0f Hz at this one speed, as hum of the mains is: another speed tells",
+               t->mains_order, t->mains_Hz);
+    else if (t->fast_Hz > 0.0 && t->is_solved && t->solution.expected.state != HCI_RIPPLE_KNOWN)
+        append(t,
+               "; at this one speed the ripple has %.0f Hz, of which a slower torque sensor or filter shows "
+               "less, and late: a slow turn beside it tells",
+               t->fast_Hz);
+}
+
+/* What they do not tell of the machine, and what of them was not used. */
+static void append_of_machine(cli_tuning *t)
+{
+    if (cli_tune_is_uncounted(t))
+        append(t, "; that there are %d pole pairs is taken on trust, since nothing in these logs counts them",
+               t->declared.model.pole_pairs);
+    if (t->is_solved && cli_tune_lacks_sign(t))
+        append(t, "; the sign of i_q is not told, and with the other one it doubles");
+    if (cli_tune_is_off_sheet(t))
+        append(t, "; the measured back-EMF is %.3g times that of the data sheet", t->emf_to_sheet);
+    if (t->left_out > 0) append(t, "; %zu of %zu logs left out", t->left_out, t->left_out + t->kept.words);
+    if (t->has_doubt && !cli_tune_is_off_sheet(t))
+        append(t, "; check does not understand all that the logs say");
+    if (t->stranger_order > 0.0)
+        append(t,
+               "; the largest order found, %.5g, is none that %.0f slots and %d poles make: %.5g and its "
+               "multiples",
+               t->stranger_order, t->declared.slots, 2 * t->declared.model.pole_pairs,
+               cli_tune_order_of_slots(t));
+    if (cli_tune_misses_slots(t))
+        append(t, "; order %.5g, which slots and poles make, was not looked at", cli_tune_order_of_slots(t));
+}
+
+static bool has_rough_clock(const cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count; ++k)
+        if (t->runs.run[k].is_unsteady && t->runs.run[k].rough_clock) return true;
+    return false;
+}
+
+/* What keeps the logs from being used, the first that holds; NULL: nothing of the kind. */
+static const char *why_blocked(const cli_tuning *t)
+{
+    if (t->has_misfit)
+        return "Angle, order or speed in the logs contradict each other, and no slip that is known explains "
+               "it";
+    if (t->has_alias) return "Cogging torque of a higher order would look like one of a low order";
+    if (t->has_standstill)
+        return "The angle of the rotor does not change in the logs: the shaft stands, and one angle tells "
+               "neither cogging torque nor back-EMF";
+    if (t->has_no_angle)
+        return "The log has no angle of the rotor, and a table over one whose zero nobody knows cannot be "
+               "played";
+    return NULL;
+}
+
+/* What of the logs does not tell a torque. */
+static const char *why_untold(const cli_tuning *t)
+{
+    if (t->has_unsteady && has_rough_clock(t))
+        return "The shaft turns in jerks, or the time stamps come in jerks (rows are missing, or the stamps "
+               "are "
+               "rounded), and its current does not tell its cogging torque then";
+    if (t->has_unsteady) return "The current of a shaft that turns in jerks does not tell its cogging torque";
+    if (cli_tune_all_torque_clipped(t))
+        return "The torque in the logs is clipped at the end of its sensor, and what lies beyond is missing";
+    if (cli_tune_is_typed(t))
+        return "The torque in the log is one number in every row, typed and not measured, and tells the mean "
+               "alone";
+    if (t->tells_no_order)
+        return "The logs cover not even one electrical turn, which tells no order: at least one whole "
+               "mechanical turn is needed, better several";
+    if (t->needs_inertia) return "The inertia may answer what the current does not";
+    return "The logs tell neither cogging torque nor back-EMF";
+}
+
+/* 1 g·cm², in which data sheets state it. */
+#define GRAM_CM2 1e-7
+
+static void say_inertia(cli_tuning *t)
+{
+    const double inertia_kgm2 = t->declared.inertia_kgm2;
+    snprintf(
+        t->tuning.heading, sizeof t->tuning.heading,
+        "The inertia of %.4g kg·m² is not believable: by it the shaft would take %.2g times the torque that "
+        "the current makes to accelerate; above %.2g kg·m² it would be more than all of that. Is it in "
+        "another "
+        "unit (%.4g g·cm² are %.3g kg·m²)? Nothing was solved",
+        inertia_kgm2, t->inertia_share, inertia_kgm2 / t->inertia_share, inertia_kgm2,
+        GRAM_CM2 * inertia_kgm2);
+}
+
+static void say_jumps(cli_tuning *t)
+{
+    const double degrees = t->jump_rad * 180.0 / HCI_PI;
+    snprintf(
+        t->tuning.heading, sizeof t->tuning.heading,
+        "The angle stands and jumps by %.3g electrical degrees, as Hall sensors have it (60 where it is an "
+        "electrical one, here read with %d pole pairs), which tells no order of a ripple, so nothing was "
+        "solved",
+        degrees, t->declared.model.pole_pairs);
+}
+
+/* A whole number of turns, or one over it, is a gear's. */
+static void say_elsewhere(cli_tuning *t)
+{
+    const double ratio = t->angle_to_speed, gear = fmax(ratio, 1.0 / ratio);
+    char words[96] = "two of them exchanged?";
+    if (ratio > 1000.0)
+        snprintf(words, sizeof words, "counts? --column theta_m=COLUMN/COUNTS_OF_A_TURN, or theta_e");
+    if (ratio > 0.0 && gear > 1.5 && fabs(gear - round(gear)) < 0.03 * gear && gear < 1000.0)
+        snprintf(words, sizeof words, "one of a shaft behind a gear of %.0f, or an electrical one?",
+                 round(gear));
+    snprintf(
+        t->tuning.heading, sizeof t->tuning.heading,
+        "The angle does not go where the speed leads, but %.3g times as far: one of the two columns is of "
+        "something else (%s), so nothing was solved",
+        ratio, words);
+}
+
+static void say_why_not_solved(cli_tuning *t)
+{
+    hci_tuning *r = &t->tuning;
+    const char *column = cli_tune_lacks_torque(t) ? cli_tune_torque_like(t) : NULL;
+    if (t->jump_rad > 0.0) {
+        say_jumps(t);
+        return;
+    }
+    if (t->is_not_followed && (!t->has_slip || t->slip_is_of_poles)) {
+        say_elsewhere(t);
+        return;
+    }
+    if (t->inertia_share > 0.0 && !t->has_slip && !t->has_misfit) {
+        say_inertia(t);
+        return;
+    }
+    if (!cli_tune_is_blocked(t) && !cli_tune_is_typed(t) &&
+        cli_tune_say_fast(t, r->heading, sizeof r->heading))
+        return;
+    if (why_blocked(t) || !t->has_slip)
+        snprintf(r->heading, sizeof r->heading, "%s, so nothing was solved",
+                 why_blocked(t) ? why_blocked(t) : why_untold(t));
+    else
+        snprintf(r->heading, sizeof r->heading, "%s", t->slip);
+    if (column)
+        snprintf(r->heading + strlen(r->heading), sizeof r->heading - strlen(r->heading),
+                 "; if the column `%s` is a torque, add --column 'torque_Nm=%s'", column, column);
+}
+
+void cli_tune_set_heading(cli_tuning *t)
+{
+    if (t->is_solved)
+        say_table(t);
+    else
+        say_why_not_solved(t);
+    append_of_table(t);
+    append_of_torque(t);
+    append_of_machine(t);
+}

@@ -1,0 +1,11 @@
+/* The first line of what tune says: what the table does, or why there is none, and all that makes it
+ * doubtful. Uses tune_facts, tune_cover, tune_size, tune_suspect. */
+#ifndef HCI_CLI_TUNE_HEADING_H
+#define HCI_CLI_TUNE_HEADING_H
+
+#include "cli/tune/tune_steps.h"
+
+/* Sets the heading of the report. */
+void cli_tune_set_heading(cli_tuning *tune);
+
+#endif

@@ -1,0 +1,86 @@
+#include "cli/tune/tune_show.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/terminal/say.h"
+#include "cli/terminal/text.h"
+#include "cli/tune/tune_facts.h"
+
+static void show_part(const hci_tuning *t, hci_tuning_part part)
+{
+    const char *text = t->part[part];
+    if (!*text) return;
+    cli_say("\n%s\n", hci_tuning_part_name(part));
+    while (*text) {
+        char line[4096];
+        const size_t length = strcspn(text, "\n");
+        snprintf(line, sizeof line, "%.*s", (int)length, text);
+        cli_say_paragraph(2 + (int)strspn(line, " "), line + strspn(line, " "));
+        text += length + (text[length] == '\n');
+    }
+}
+
+static void show_before_and_after(const cli_tuning *t)
+{
+    const hci_solution *s = &t->solution;
+    const hci_expected_ripple *e = &s->expected;
+    double before_Nm, after_Nm;
+    char expected[64] = "not known";
+    cli_tune_swing_of(t, &before_Nm, &after_Nm);
+    if (e->state == HCI_RIPPLE_KNOWN)
+        snprintf(expected, sizeof expected, "at most %.3g N·m (95 %%)",
+                 cli_tune_rounded_up(e->peak_to_peak_Nm));
+    if (after_Nm < s->tolerance_Nm) after_Nm = 0.0;
+    cli_say("                              plain sine   with the table   to expect on the machine\n");
+    if (!hci_tuning_knows_ripple(s))
+        cli_say("  ripple, peak to peak, N·m    not known        not known   %s\n", expected);
+    else
+        cli_say("  ripple, peak to peak, N·m   %10.3g   %14.3g   %s\n", before_Nm, after_Nm, expected);
+    cli_say("  peak phase current, A       %10.4g   %14.4g   the same, if the current loop follows\n",
+            s->plain_amplitude_A, s->peak_phase_current_A);
+    if (isfinite(s->loss_to_plain))
+        cli_say("  copper loss, to the sine    %10d   %14.4g   the same\n", 1, s->loss_to_plain);
+}
+
+/* As they can be typed: the folder by its name. */
+static void show_commands(const cli_tuning *t)
+{
+    static const char FOLDER[] = "\"$OUT\"", OR[] = " || [";
+    const char *text = t->tuning.commands;
+    while (*text) {
+        const size_t length = strcspn(text, "\n");
+        if (strncmp(text, "hci-solve ", 10) == 0) {
+            cli_say("    ");
+            for (const char *at = text; at < text + length && strncmp(at, OR, sizeof OR - 1) != 0;) {
+                const bool is_folder = strncmp(at, FOLDER, sizeof FOLDER - 1) == 0;
+                if (is_folder)
+                    cli_say("%s", t->out);
+                else
+                    cli_say("%c", *at);
+                at += is_folder ? sizeof FOLDER - 1 : 1;
+            }
+            cli_say("\n");
+        }
+        text += length + (text[length] == '\n');
+    }
+}
+
+void cli_show_tuning(const cli_tuning *t)
+{
+    const hci_tuning *r = &t->tuning;
+    cli_say("%s%s" CLI_PLAIN ": %s\n", r->good ? CLI_GOOD : CLI_WARN, r->verdict, r->heading);
+    if (t->is_solved && t->size != CLI_TUNE_EXCESS) {
+        char words[1024];
+        show_before_and_after(t);
+        hci_expected_ripple_words(&t->solution.expected, words, sizeof words);
+        cli_say("  on the real machine\n");
+        cli_say_paragraph(4, words);
+    }
+    for (int k = 0; k < HCI_TUNING_PARTS; ++k)
+        show_part(r, (hci_tuning_part)k);
+    cli_say("\nThe report is %s/report.html; sh %s/commands.sh FOLDER does this again, step by step:\n",
+            t->out, t->out);
+    show_commands(t);
+}

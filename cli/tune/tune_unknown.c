@@ -1,0 +1,172 @@
+#include "cli/tune/tune_unknown.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "cli/tune/tune_cover.h"
+#include "cli/tune/tune_facts.h"
+#include "cli/tune/tune_options.h"
+
+static void say_unknown_zero(cli_tuning *t)
+{
+    hci_tuning_say(
+        &t->tuning, HCI_TUNING_UNKNOWN,
+        "Where the electrical zero is: the logs have the angle of an encoder, whose zero is "
+        "taken for that of the back-EMF of phase a; i_d and i_q, v_d and v_q, turned by the same angle, do "
+        "not tell it. The angle of the table is that of the logs, and its header says so. The dq table "
+        "answers cogging torque at the "
+        "right angle of the encoder whatever the zero, as long as the drive's own angle makes "
+        "the phase currents; harmonics of the back-EMF and tables of phase currents need it "
+        "(docs/tutorials/zero.md).");
+}
+
+static void say_unknown_sign(cli_tuning *t)
+{
+    hci_tuning_say(
+        &t->tuning, HCI_TUNING_UNKNOWN,
+        "Whether i_q drives the shaft the way in which the angle is counted: neither friction nor an "
+        "acceleration in these logs tells it. With the other sign the table doubles what it is to "
+        "take away. A turn forward and one back, in one log with time and speed, tells it.");
+    hci_tuning_say(
+        &t->tuning, HCI_TUNING_NEXT,
+        "Before the table is played: turn the shaft forward and back by the drive alone and log it.");
+}
+
+static void say_uncounted(cli_tuning *t)
+{
+    const int p = t->declared.model.pole_pairs;
+    char half[32] = "";
+    if (p % 2 == 0) snprintf(half, sizeof half, "%d, or ", p / 2);
+    hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                   "Whether there are %d pole pairs, and not %s%d: nothing in these logs counts them, and a "
+                   "table of the wrong number is of no use. Count the magnets, two for a pole pair; voltages "
+                   "or currents of the phases beside the angle, or both angles, would tell.",
+                   p, half, 2 * p);
+}
+
+static void say_reach_of_slopes(cli_tuning *t)
+{
+    hci_tuning_say(
+        &t->tuning, HCI_TUNING_UNKNOWN,
+        "Cogging torque above the electrical order %.3g: the slope of the speed hardly shows it. Turn "
+        "the shaft slowly under control, forward and back, or measure the torque.",
+        cli_tune_reach_of_slopes(t));
+}
+
+static void say_off_sheet(cli_tuning *t)
+{
+    hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                   "Which back-EMF is right: the measured one is %.3g times that of the data sheet, and "
+                   "was taken. Check Kv and what it is of, the pole pairs, and that nothing drove a "
+                   "current.",
+                   t->emf_to_sheet);
+}
+
+static void say_short(cli_tuning *t)
+{
+    hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                   "What repeats with the mechanical turn: %.2g of a turn is covered, and orders closer to "
+                   "each other than one over that are not told apart. Record at least one whole turn, "
+                   "better several.",
+                   t->turns);
+}
+
+static void say_coarse(cli_tuning *t)
+{
+    hci_tuning_say(
+        &t->tuning, HCI_TUNING_UNKNOWN,
+        "Ripple above the electrical order %.3g: no recording has more samples in a turn (rows that "
+        "repeat a torque that is held count once), so it was not looked at and no bound is "
+        "told. Turn more slowly, or log the torque more often.",
+        t->highest_order);
+}
+
+static void say_missed_slots(cli_tuning *t)
+{
+    hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                   "The cogging torque of slots and poles, order %.5g: orders above %.5g were not looked "
+                   "at, since the samples lie too far apart. Turn more slowly, or log more often.",
+                   cli_tune_order_of_slots(t), t->cogging_reach);
+}
+
+/* The orders and sizes that the recordings do not tell. */
+static void say_limits(cli_tuning *t)
+{
+    const bool is_of_slopes = cli_tune_reach_of_slopes(t) > 0.0;
+    if (is_of_slopes) say_reach_of_slopes(t);
+    if (cli_tune_is_off_sheet(t)) say_off_sheet(t);
+    if (cli_tune_is_short(t)) say_short(t);
+    if (cli_tune_is_coarse(t) && !is_of_slopes) say_coarse(t);
+    if (cli_tune_misses_slots(t)) say_missed_slots(t);
+}
+
+/* The machine that recordings without a torque sensor or voltages leave open. */
+static void say_machine(cli_tuning *t)
+{
+    if (t->is_solved && cli_tune_lacks_sign(t)) say_unknown_sign(t);
+    if (t->is_solved && t->is_own && !t->has_emf && !t->has_load)
+        hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                       "The torque per ampere and the back-EMF are those of the data sheet; voltages of the "
+                       "open machine, driven by another, would tell them.");
+    if (t->is_solved && !cli_tune_knows_zero(t)) say_unknown_zero(t);
+    if (cli_tune_is_uncounted(t)) say_uncounted(t);
+}
+
+/* What one recording does not tell, by the name that it was given. */
+static void say_recording(cli_tuning *t, const hci_run *r, const char *name)
+{
+    if (r->torque_is_typed)
+        hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                       "The ripple in %s: its torque is one number in every row, typed and not measured.",
+                       name);
+    if (r->is_unsteady && !t->has_slip && !t->has_misfit)
+        hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                       "What of the current in %s answers cogging torque, and what answers the shaft's "
+                       "sticking and slipping.",
+                       name);
+    if (r->needs_inertia)
+        hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                       "What of the cogging torque in %s the inertia answers, and what the current.", name);
+}
+
+static void say_lag(cli_tuning *t)
+{
+    hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                   "Whether the torque sensor reads late: every recording with it has one speed and one "
+                   "direction, and a delay turns the orders by an angle that the bound leaves out.");
+    hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
+                   "One of the loads turned back, or at another speed, which tells a delay of the sensor.");
+}
+
+/* Where no recording tells of it, or nothing was found of it. */
+static void say_cogging(cli_tuning *t)
+{
+    double before_Nm = 0.0, after_Nm;
+    if (!t->is_solved) return;
+    hci_tuning_swing(&t->solution, &before_Nm, &after_Nm);
+    if (!t->has_cogging && t->diagnosis.nothing_measured)
+        hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                       "No recording tells of the cogging torque: the table takes none away.");
+    else if (before_Nm >= t->solution.tolerance_Nm)
+        return;
+    else if (cli_tune_unexplained_Nm(t) > 0.0)
+        hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                       "What makes the ripple: up to %.3g N·m rms of it is in a recording, and nothing that "
+                       "is certain explains it. The table takes none of it away.",
+                       cli_tune_unexplained_Nm(t));
+    else
+        hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                       "No ripple was found: it is below what the recordings resolve, or they cannot show "
+                       "it.");
+}
+
+void cli_tune_say_unknown(cli_tuning *t)
+{
+    say_cogging(t);
+    say_limits(t);
+    say_machine(t);
+    for (size_t k = 0; k < t->runs.count; ++k)
+        say_recording(t, &t->runs.run[k],
+                      t->arguments->given[TUNE_RUNS] ? t->runs.run[k].name : t->arguments->word[k]);
+    if (cli_tune_hangs_on_lag(t)) say_lag(t);
+}
