@@ -166,10 +166,3 @@ bool cli_tune_is_of_no_use(const cli_tuning *t)
     if (before_Nm < t->solution.tolerance_Nm) return !(t->mean_Nm > 0.0);
     return after_Nm >= before_Nm;
 }
-
-double cli_tune_rounded_up(double value)
-{
-    if (!(value > 0.0) || !isfinite(value)) return value;
-    const double digit = pow(10.0, floor(log10(value)) - 2.0);
-    return ceil(value / digit - 1e-9) * digit;
-}

@@ -56,7 +56,4 @@ bool cli_tune_is_far_beyond(const cli_tuning *tune);
  * none away since none was found. */
 bool cli_tune_is_of_no_use(const cli_tuning *tune);
 
-/* To three digits, of a limit. */
-double cli_tune_rounded_up(double value);
-
 #endif

@@ -31,13 +31,15 @@ static void say_bound(const hci_expected_ripple *e, double before_Nm, double aft
         snprintf(
             text, size,
             "A ripple of %.3g N·m from peak to peak falls to at most %.3g N·m on the machine (95 %%), of "
-            "which the table %.2g",
-            before_Nm, cli_tune_rounded_up(e->peak_to_peak_Nm), e->table_peak_to_peak_Nm);
+            "which the table makes %.2g",
+            before_Nm, hci_ripple_bound_as_said(e->peak_to_peak_Nm),
+            hci_ripple_bound_as_said(e->table_peak_to_peak_Nm));
     else
         snprintf(text, size,
                  "A ripple of %.3g N·m from peak to peak %s %.3g N·m in the model; on the machine it is at "
                  "most %.3g N·m (95 %%), so that the recordings do not promise less than without the table",
-                 before_Nm, becomes(before_Nm, after_Nm), after_Nm, cli_tune_rounded_up(e->peak_to_peak_Nm));
+                 before_Nm, becomes(before_Nm, after_Nm), after_Nm,
+                 hci_ripple_bound_as_said(e->peak_to_peak_Nm));
 }
 
 static void say_fall(cli_tuning *t, char *text, size_t size)
@@ -157,7 +159,7 @@ static void append_of_table(cli_tuning *t)
 {
     append_of_logs(t);
     if (t->is_solved && *t->solution.corrections)
-        append(t, "; this once the drive's sensors, where they are those of the logs, are corrected: %s",
+        append(t, "; this holds once the sensors of the drive, where they are those of the logs, are corrected: %s",
                t->solution.corrections);
     append_of_doubt(t);
     if (cli_tune_misses_torque(t))

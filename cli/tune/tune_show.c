@@ -31,7 +31,7 @@ static void show_before_and_after(const cli_tuning *t)
     cli_tune_swing_of(t, &before_Nm, &after_Nm);
     if (e->state == HCI_RIPPLE_KNOWN)
         snprintf(expected, sizeof expected, "at most %.3g N·m (95 %%)",
-                 cli_tune_rounded_up(e->peak_to_peak_Nm));
+                 hci_ripple_bound_as_said(e->peak_to_peak_Nm));
     if (after_Nm < s->tolerance_Nm) after_Nm = 0.0;
     cli_say("                              plain sine   with the table   to expect on the machine\n");
     if (!hci_tuning_knows_ripple(s))

@@ -30,7 +30,7 @@ number() { # NAME FILE: the first number of that name
 # ---- what the report states is what the true machine does
 
 run 0 tune idle.csv load.csv back.csv --pole-pairs 7 --flux 0.0142857142857143 --rated-current 6 -o out
-says '^tuned: A ripple of 0\.04[0-9]* N·m from peak to peak falls to at most 0\.0[01][0-9]* N·m on the machine \(95 %\), of which the table 0\.00[0-9]*$' \
+says '^tuned: A ripple of 0\.04[0-9]* N·m from peak to peak falls to at most 0\.0[01][0-9]* N·m on the machine \(95 %\), of which the table makes 0\.00[0-9]*$' \
     'order 12: 0\.0(20|19)[0-9]* ± [0-9.e-]+ N·m' 'a torque without ripple of 0\.6 N·m' 'hci-solve emit out/currents --name tuned '
 files_are() { check "files of $1: $(ls "$1" | tr '\n' ' ')" [ "$(ls "$1" | tr '\n' ' ')" = "$2 " ]; }
 files_are out 'check commands.sh currents diagnose machine report.html runs.csv summary.json table target.csv'

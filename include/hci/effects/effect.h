@@ -255,6 +255,7 @@ enum {
  * that does not concern it is 0 or NULL. */
 struct hci_effect_type {
     const char *name;                        /* as in effects.csv */
+    const char *title;                       /* as in a sentence, without an article where it needs none */
     const char *equation;                    /* in words and letters, for people */
     const hci_effect_correction *correction; /* of each parameter; NULL: no sensor of a drive */
     const char *signature;                   /* how it shows in a residual */

@@ -100,6 +100,7 @@ static void propose_coenergy(const hci_effect_coenergy_series *series, const hci
 
 const hci_effect_type hci_effect_back_emf = {
     .name = "back_emf",
+    .title = "back-EMF",
     .equation = "T = Σ_s i_s Σ [S sin(nθ − σ2πs/3) + C cos(nθ − σ2πs/3)], σ = n mod 3 where none is named",
     .signature =
         "grows with the current; at n ± the orders of the currents, n of another sequence at DC and order 2",

@@ -152,6 +152,7 @@ static const hci_effect_correction CORRECTION[] = {
 
 const hci_effect_type hci_effect_channel_delay = {
     .name = "channel_delay",
+    .title = "a late channel",
     .equation = "x_read(t) = x(t − τ)",
     .signature = "a phase in proportion to order and speed, unlike an offset",
     HCI_EFFECT_PARAMETERS(PARAMETER),

@@ -67,6 +67,7 @@ static void propose_alike(const hci_machine *machine, double slots, const hci_ef
 
 const hci_effect_type hci_effect_cogging = {
     .name = "cogging",
+    .title = "cogging torque",
     .equation = "T = Σ S sin nθ + C cos nθ",
     .signature = "independent of current and speed, at any order",
     HCI_EFFECT_PARAMETERS(PARAMETER),

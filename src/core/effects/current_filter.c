@@ -126,6 +126,7 @@ static const hci_effect_correction CORRECTION[] = {
 
 const hci_effect_type hci_effect_current_filter = {
     .name = "current_filter",
+    .title = "a filter of the current",
     .equation = "τ di_read/dt + i_read = i",
     .signature = "a phase in proportion to order and speed like a delay, and smaller currents at high speed",
     HCI_EFFECT_PARAMETERS(PARAMETER),

@@ -83,6 +83,7 @@ static const hci_effect_correction CORRECTION[] = {
 
 const hci_effect_type hci_effect_current_gain = {
     .name = "current_gain",
+    .title = "gains of the current sensors",
     .equation = "i_s,read = (1 + g_s) i_s",
     .signature = "grows with the current; order 2 and the mean",
     HCI_EFFECT_PARAMETERS(PARAMETER),

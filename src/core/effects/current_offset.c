@@ -72,6 +72,7 @@ static const hci_effect_correction CORRECTION[] = {{"subtract ", 0.0, " A from i
 
 const hci_effect_type hci_effect_current_offset = {
     .name = "current_offset",
+    .title = "zeros of the current sensors",
     .equation = "i_s,read = i_s + o_s",
     .signature = "independent of the load; order 1 and its sidebands with the back-EMF",
     HCI_EFFECT_PARAMETERS(PARAMETER),

@@ -65,6 +65,7 @@ static void propose_alike(const hci_machine *machine, double slots, const hci_ef
 
 const hci_effect_type hci_effect_friction = {
     .name = "friction",
+    .title = "friction",
     .equation = "T = −(T_c sign ω + B ω + Q ω |ω|)",
     .signature = "mean only; with the sign, the value and the square of the speed",
     HCI_EFFECT_PARAMETERS(PARAMETER),

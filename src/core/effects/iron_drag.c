@@ -73,6 +73,7 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
 
 const hci_effect_type hci_effect_iron_drag = {
     .name = "iron_drag",
+    .title = "drag of the iron",
     .equation = "T = −(H sign ω + E ω) (i_d² + i_q²)",
     .signature = "mean only; grows with the square of the current and has the sign of the speed",
     HCI_EFFECT_PARAMETERS(PARAMETER),

@@ -33,6 +33,7 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
 
 const hci_effect_type hci_effect_magnet_temperature = {
     .name = "magnet_temperature",
+    .title = "warm magnets",
     .equation = "T = α (ϑ − ϑ_0) e(θ)·i",
     .signature = "grows with the current; mean and all orders together, follows the temperature",
     HCI_EFFECT_PARAMETERS(PARAMETER),

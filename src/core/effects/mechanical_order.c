@@ -84,6 +84,7 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
 
 const hci_effect_type hci_effect_mechanical_order = {
     .name = "mechanical_order",
+    .title = "orders of the mechanical turn",
     .equation = "T = Σ (S + S_q i_q + S_d i_d) sin nθ + (C + C_q i_q + C_d i_d) cos nθ, n = k/p",
     .signature = "fractional electrical orders, independent of the current or in proportion to i_q and i_d",
     HCI_EFFECT_PARAMETERS(PARAMETER),

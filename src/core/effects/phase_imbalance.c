@@ -42,6 +42,7 @@ static void propose_alike(const hci_machine *machine, double slots, const hci_ef
 
 const hci_effect_type hci_effect_phase_imbalance = {
     .name = "phase_imbalance",
+    .title = "phases that differ",
     .equation = "T = Σ_s g_s e_s(θ) i_s",
     .signature = "grows with the current; mean and order 2 for sinusoidal currents",
     HCI_EFFECT_PARAMETERS(PARAMETER),

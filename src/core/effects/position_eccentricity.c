@@ -71,6 +71,7 @@ static const hci_effect_correction CORRECTION[] = {
 
 const hci_effect_type hci_effect_position_eccentricity = {
     .name = "position_eccentricity",
+    .title = "an eccentric encoder",
     .equation = "θ_m,read = θ_m + Σ S sin kθ_m + C cos kθ_m",
     .signature = "mechanical orders 1 and 2 around every order, as ∂T/∂θ modulated",
     HCI_EFFECT_PARAMETERS(PARAMETER),

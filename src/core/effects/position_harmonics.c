@@ -84,6 +84,7 @@ static const hci_effect_correction CORRECTION[] = {
 
 const hci_effect_type hci_effect_position_harmonics = {
     .name = "position_harmonics",
+    .title = "errors of the angle within a turn",
     .equation = "θ_read = θ + Σ S sin nθ + C cos nθ",
     .signature = "the orders of the sensor around every order, as ∂T/∂θ modulated",
     HCI_EFFECT_PARAMETERS(PARAMETER),

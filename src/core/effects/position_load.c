@@ -98,6 +98,7 @@ static const hci_effect_correction CORRECTION[] = {
 
 const hci_effect_type hci_effect_position_load = {
     .name = "position_load",
+    .title = "an angle that turns with the load",
     .equation = "θ_read = θ + κ i_q",
     .signature = "∂T/∂θ times i_q, at every order: grows with the square of the current, as reluctance does",
     HCI_EFFECT_PARAMETERS(PARAMETER),

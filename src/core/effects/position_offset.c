@@ -53,6 +53,7 @@ static const hci_effect_correction CORRECTION[] = {
 
 const hci_effect_type hci_effect_position_offset = {
     .name = "position_offset",
+    .title = "the zero of the angle",
     .equation = "θ_read = θ + δ",
     .signature = "∂T/∂θ times a constant, at every order",
     HCI_EFFECT_PARAMETERS(PARAMETER),

@@ -71,6 +71,7 @@ static void propose_coenergy(const hci_effect_coenergy_series *series, const hci
 
 const hci_effect_type hci_effect_reluctance = {
     .name = "reluctance",
+    .title = "reluctance torque",
     .equation = "T = ∂W'/∂θ_m, W' = 3/2 (½ L_dd i_d² + L_dq i_d i_q + ½ L_qq i_q²)",
     .signature = "grows with the square of the current; mean and orders 6k, order 2 with unequal phases",
     HCI_EFFECT_PARAMETERS(PARAMETER),

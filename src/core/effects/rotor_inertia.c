@@ -40,6 +40,7 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
 
 const hci_effect_type hci_effect_rotor_inertia = {
     .name = "rotor_inertia",
+    .title = "the inertia of the rotor",
     .equation = "T_read = T − J dω/dt",
     .signature =
         "follows the acceleration; grows with the square of the speed where that varies with the angle",

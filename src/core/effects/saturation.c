@@ -114,6 +114,7 @@ static void propose_coenergy(const hci_effect_coenergy_series *series, const hci
 
 const hci_effect_type hci_effect_saturation = {
     .name = "saturation",
+    .title = "saturation",
     .equation = "T = ∂W'/∂θ_m, W' = Σ (S sin nθ + C cos nθ) (i_d/I_0)^a (i_q/I_0)^b",
     .signature =
         "grows with the third or a higher power of the current; mean torque lost with load, orders 6k",

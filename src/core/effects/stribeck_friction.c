@@ -157,6 +157,7 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
 
 const hci_effect_type hci_effect_stribeck_friction = {
     .name = "stribeck_friction",
+    .title = "Stribeck's friction",
     .equation = "T = −T_s e^{−(ω/ω_s)²} sign ω",
     .signature = "mean only; with the sign of the speed, and gone above some speed",
     HCI_EFFECT_PARAMETERS(PARAMETER),

@@ -43,6 +43,7 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
 
 const hci_effect_type hci_effect_torque_drift = {
     .name = "torque_drift",
+    .title = "drift of the torque sensor",
     .equation = "T_read = T + D (t − t_0)",
     .signature = "follows the time of a run, not the angle",
     HCI_EFFECT_PARAMETERS(PARAMETER),

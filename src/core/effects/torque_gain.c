@@ -40,6 +40,7 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
 
 const hci_effect_type hci_effect_torque_gain = {
     .name = "torque_gain",
+    .title = "the gain of the torque sensor",
     .equation = "T_read = (1 + g) T",
     .signature = "all torque by one factor: that of the currents and cogging",
     HCI_EFFECT_PARAMETERS(PARAMETER),

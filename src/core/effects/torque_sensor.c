@@ -193,6 +193,7 @@ static void propose_alike(const hci_machine *machine, double slots, const hci_ef
 
 const hci_effect_type hci_effect_torque_sensor = {
     .name = "torque_sensor",
+    .title = "errors of the torque sensor",
     .equation = "T_read = G(s) T + offset, G = 1/(1 + τs) · 1/(1 + 2ζs/ω_n + s²/ω_n²)",
     .signature = "all orders; amplitude and phase follow order × speed",
     HCI_EFFECT_PARAMETERS(PARAMETER),

@@ -75,6 +75,7 @@ static void propose_alike(const hci_machine *machine, double slots, const hci_ef
 
 const hci_effect_type hci_effect_unequal_magnets = {
     .name = "unequal_magnets",
+    .title = "unequal magnets",
     .equation = "T = (e(θ)·i + 2 T_cog(θ)) Σ S sin nθ + C cos nθ, n = k/p",
     .signature = "fractional electrical orders around the mean and those of cogging at once",
     HCI_EFFECT_PARAMETERS(PARAMETER),

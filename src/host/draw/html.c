@@ -1,6 +1,7 @@
 /* The only file that writes HTML. */
 #include "host/draw/html.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -27,6 +28,7 @@ static const char STYLE[] =
     "h1,h2{font-family:'Iowan Old Style','Palatino Linotype',Palatino,Charter,Georgia,serif;"
     "line-height:1.2;text-wrap:balance}"
     "h1{font-size:2.1rem;margin:.3rem 0 .8rem}"
+    ".also{margin:0 0 .8rem;padding-left:1.2rem;max-width:46rem;font-size:1.05rem}.also li{margin:.2rem 0}"
     "h2{font-size:1.3rem;margin:2.2rem 0 .5rem;padding-top:.8rem;border-top:1px solid var(--line)}"
     "h1,h2,p,td,figcaption{overflow-wrap:anywhere}"
     "p{margin:.4rem 0;max-width:46rem}.lead{font-size:1.15rem}p.of{margin:.1rem 0 .1rem 1.2rem}"
@@ -59,13 +61,15 @@ static const char STYLE[] =
     "th{font-weight:400;vertical-align:top}.compare td{font-weight:600}"
     ".compare small{display:block;font-weight:400;font-size:.8125rem;color:var(--quiet)}"
     "@media screen and (max-width:36rem){.wide{display:none}.narrow{display:block}h1{font-size:1.6rem}"
-    "h2{font-size:1.15rem}.lead{font-size:1.05rem}.compare{font-size:.9rem}.compare th,.compare "
+    "h2{font-size:1.15rem}.lead,.also{font-size:1rem}.table{max-height:none}.compare{font-size:.9rem}."
+    "compare th,.compare "
     "td{padding-right:.5rem}"
     "th,td{padding:.2rem .3rem}td.words{min-width:6.5rem}"
     "main{padding:1rem .8rem 2rem}.kicker{padding-top:.5rem}}"
     "@page{margin:12mm 14mm}"
     "@media print{body{font-size:9.5pt}main{max-width:none;padding:0}.skip{display:none}"
     "h1{font-size:19pt}h2{font-size:12.5pt;margin-top:1rem;padding-top:.4rem}.lead{font-size:11pt}"
+    ".also{font-size:10pt}"
     "details:not([open]){display:none}.compare{font-size:10pt;margin:.5rem 0}.compare th,.compare "
     "td{padding-top:.15rem;padding-bottom:.15rem}"
     ".table{overflow:visible;max-height:none}"
@@ -76,43 +80,6 @@ static const char STYLE[] =
     "td.long{white-space:normal;overflow-wrap:anywhere;min-width:11em}td.words{min-width:9em}}";
 
 /* ---- the page ---- */
-
-void hci_html_begin(hci_output *out, const hci_html_opening *o)
-{
-    hci_output_text(out, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-                         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
-                         "<meta name=\"generator\" content=\"hci-solve " HCI_VERSION_STRING "\"/>\n<title>");
-    hci_svg_text(out, o->heading);
-    hci_output_text(out,
-                    "</title>\n<style>%s\n%s</style>\n</head>\n<body>\n<a class=\"skip\" href=\"#evidence\">"
-                    "Skip to the evidence</a>\n<main>\n<p class=\"kicker\"><span class=\"badge %s\">",
-                    STYLE, hci_svg_style, o->good ? "good" : "bad");
-    hci_svg_text(out, o->badge);
-    hci_output_text(out, "</span> <span class=\"topic\">");
-    hci_svg_text(out, o->kicker);
-    hci_output_text(out, "</span></p>\n<h1>");
-    hci_svg_text(out, o->heading);
-    hci_output_text(out, "</h1>\n");
-}
-
-void hci_html_end(hci_output *out)
-{
-    hci_html_paragraph(out, "quiet",
-                       "Written by hci-solve " HCI_VERSION_STRING ". Amplitudes are peak values, angles "
-                       "and orders electrical, unless it says otherwise. Four significant digits are "
-                       "shown; the CSV files beside this one hold all of them. On a screen each mark "
-                       "tells its value under the pointer.");
-    hci_output_text(out, "</main>\n</body>\n</html>\n");
-}
-
-/* ---- text ---- */
-
-static void put_element(hci_output *out, const char *name, const char *style, const char *text)
-{
-    hci_output_text(out, "<%s%s%s%s>", name, style ? " class=\"" : "", style ? style : "", style ? "\"" : "");
-    hci_svg_text(out, text);
-    hci_output_text(out, "</%s>\n", name);
-}
 
 /* The first `length` bytes of a text. */
 static void put_part(hci_output *out, const char *text, size_t length)
@@ -134,6 +101,80 @@ static void put_with_code(hci_output *out, const char *text)
         text = end + 1;
     }
     hci_svg_text(out, text);
+}
+
+/* Bytes of a sentence up to the semicolon after its first clause, outside parentheses. */
+static size_t clause_of(const char *text)
+{
+    int depth = 0;
+    size_t k = 0;
+    for (; text[k] && !(depth == 0 && text[k] == ';' && text[k + 1] == ' '); ++k)
+        depth += (text[k] == '(') - (text[k] == ')');
+    return k;
+}
+
+/* A clause, as a sentence begins: but for names such as i_q. */
+static void put_clause(hci_output *out, const char *text, size_t length)
+{
+    char clause[2048];
+    snprintf(clause, sizeof clause, "%.*s", (int)length, text);
+    if (clause[0] && clause[1] != '_') clause[0] = (char)toupper((unsigned char)clause[0]);
+    put_with_code(out, clause);
+}
+
+/* The first clause is the heading, the others are a list under it. */
+static void put_heading_and_rest(hci_output *out, const char *text)
+{
+    size_t length = clause_of(text);
+    hci_output_text(out, "<h1>");
+    put_clause(out, text, length);
+    hci_output_text(out, "</h1>\n");
+    if (!text[length]) return;
+    hci_output_text(out, "<ul class=\"also\">\n");
+    for (text += length; *text; text += length) {
+        text += 2;
+        length = clause_of(text);
+        hci_output_text(out, "<li>");
+        put_clause(out, text, length);
+        hci_output_text(out, "</li>\n");
+    }
+    hci_output_text(out, "</ul>\n");
+}
+
+void hci_html_begin(hci_output *out, const hci_html_opening *o)
+{
+    hci_output_text(out, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+                         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+                         "<meta name=\"generator\" content=\"hci-solve " HCI_VERSION_STRING "\"/>\n<title>");
+    put_part(out, o->heading, clause_of(o->heading));
+    hci_output_text(out,
+                    "</title>\n<style>%s\n%s</style>\n</head>\n<body>\n<a class=\"skip\" href=\"#evidence\">"
+                    "Skip to the evidence</a>\n<main>\n<p class=\"kicker\"><span class=\"badge %s\">",
+                    STYLE, hci_svg_style, o->good ? "good" : "bad");
+    hci_svg_text(out, o->badge);
+    hci_output_text(out, "</span> <span class=\"topic\">");
+    hci_svg_text(out, o->kicker);
+    hci_output_text(out, "</span></p>\n");
+    put_heading_and_rest(out, o->heading);
+}
+
+void hci_html_end(hci_output *out)
+{
+    hci_html_paragraph(out, "quiet",
+                       "Written by hci-solve " HCI_VERSION_STRING ". Amplitudes are peak values, angles "
+                       "and orders electrical, unless it says otherwise. Four significant digits are "
+                       "shown; the CSV files beside this one hold all of them. On a screen each mark "
+                       "tells its value under the pointer.");
+    hci_output_text(out, "</main>\n</body>\n</html>\n");
+}
+
+/* ---- text ---- */
+
+static void put_element(hci_output *out, const char *name, const char *style, const char *text)
+{
+    hci_output_text(out, "<%s%s%s%s>", name, style ? " class=\"" : "", style ? style : "", style ? "\"" : "");
+    hci_svg_text(out, text);
+    hci_output_text(out, "</%s>\n", name);
 }
 
 void hci_html_paragraph(hci_output *out, const char *style, const char *text)
@@ -261,7 +302,9 @@ void hci_html_drawing_begin(hci_output *out, const hci_html_drawing *d)
     hci_output_text(out, "<figure>\n");
     draw(out, d, false);
     draw(out, d, true);
-    put_element(out, "figcaption", NULL, d->caption);
+    hci_output_text(out, "<figcaption>");
+    put_with_code(out, d->caption);
+    hci_output_text(out, "</figcaption>\n");
     hci_html_fold(out, "Numbers and sources");
 }
 
@@ -358,14 +401,20 @@ void hci_html_number_text(char text[HCI_HTML_NUMBER_SIZE], double value)
     put_digits(text, value, 3);
 }
 
+/* Torque has one unit on a page, but where it would be mostly zeros. */
+#define LEAST_TORQUE_Nm   1e-4
+#define ROUNDED_TORQUE_Nm 1e-12
+
 void hci_html_quantity_text(char text[HCI_HTML_NUMBER_SIZE], double value, const char *unit)
 {
-    if (strcmp(unit, "%") != 0 && strcmp(unit, "×") != 0) {
+    const bool is_torque =
+        strcmp(unit, "N·m") == 0 && (fabs(value) >= LEAST_TORQUE_Nm || fabs(value) < ROUNDED_TORQUE_Nm);
+    if (!is_torque && strcmp(unit, "%") != 0 && strcmp(unit, "×") != 0) {
         hci_svg_quantity_text(text, value, unit);
         return;
     }
-    hci_html_number_text(text, fabs(value) < 1e-9 ? 0.0 : value);
-    snprintf(text + strlen(text), HCI_HTML_NUMBER_SIZE - strlen(text), " %s", unit);
+    put_digits(text, fabs(value) < (is_torque ? ROUNDED_TORQUE_Nm : 1e-9) ? 0.0 : value, is_torque ? 4 : 3);
+    snprintf(text + strlen(text), HCI_HTML_NUMBER_SIZE - strlen(text), is_torque ? " %s" : " %s", unit);
 }
 
 static void put_number(hci_output *out, double value, int digits)

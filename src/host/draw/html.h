@@ -13,7 +13,8 @@ enum { HCI_HTML_NUMBER_SIZE = 48 };
 /* ---- the page ---- */
 
 /* How a page opens: kicker, what was done and with what; badge: the verdict in a word or a few; heading: what
- * was found, as a sentence; good: whether it is what one hopes for. */
+ * was found, as a sentence, of which what follows a semicolon is a list under the heading; good: whether it
+ * is what one hopes for. */
 typedef struct {
     const char *kicker, *badge, *heading;
     bool good;

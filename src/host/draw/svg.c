@@ -175,6 +175,8 @@ void hci_svg_name(hci_output *out, const char *style, double x, double y, const 
 {
     const bool is_whole = hci_svg_text_width(style, text) <= room;
     room -= is_whole ? 0.0 : hci_svg_text_width(style, "…");
+    for (const char *folder; hci_svg_text_width(style, text) > room && (folder = strchr(text, '/')) != NULL;)
+        text = folder + 1;
     while (hci_svg_text_width(style, text) > room && *text)
         do
             ++text;

@@ -14,14 +14,25 @@ enum { NUMBER_SIZE = 48 };
 
 #define ROUNDED 1e-9 /* of a last digit, that is no more than rounding */
 
+/* The power of ten of the second digit. */
+static double second_place(double value)
+{
+    return value > 0.0 && isfinite(value) ? floor(log10(value)) - 1.0 : 0.0;
+}
+
+double hci_ripple_bound_as_said(double value)
+{
+    const double digit = pow(10.0, second_place(value));
+    return isfinite(value) ? ceil(value / digit - ROUNDED) * digit : value;
+}
+
 /* Two digits and no exponent, such as 260, 1.6 or 0.00025; a limit is rounded up. */
 static const char *number(double value, bool limit, char text[NUMBER_SIZE])
 {
-    const double place = value > 0.0 && isfinite(value) ? floor(log10(value)) - 1.0 : 0.0;
-    const double digits = value / pow(10.0, place),
-                 whole = limit ? ceil(digits - ROUNDED) : floor(digits + 0.5);
+    const double place = second_place(value), digit = pow(10.0, place);
     const int decimals = (int)fmax(0.0, fmin(-place, NUMBER_SIZE - 16));
-    snprintf(text, NUMBER_SIZE, "%.*f", decimals, whole * pow(10.0, place));
+    snprintf(text, NUMBER_SIZE, "%.*f", decimals,
+             limit ? hci_ripple_bound_as_said(value) : floor(value / digit + 0.5) * digit);
     for (size_t n = strlen(text); decimals > 0 && (text[n - 1] == '0' || text[n - 1] == '.'); --n) {
         const bool point = text[n - 1] == '.';
         text[n - 1] = '\0';

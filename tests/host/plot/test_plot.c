@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/draw/html.h"
 #include "host/draw/svg.h"
 #include "support/reference.h"
 #include "support/texts.h"
@@ -519,24 +520,55 @@ static void test_labels_make_room(void)
     }
 }
 
-/* A name in bold has fewer letters in the same room; one that fits is whole. */
+/* A name in bold has fewer letters in the same room; one that fits is whole; of a path whole names stay. */
 static void test_names_fit(void)
 {
-    static const char NAME[] = "recordings/speed_control.csv";
+    static const char NAME[] = "recordings_speed_control.csv";
     hci_output *out = begin_part();
     hci_svg_name(out, "quiet end", 0.0, 0.0, NAME, 162.0);
     hci_svg_name(out, "head end", 0.0, 0.0, NAME, 162.0);
     hci_svg_name(out, "head end", 0.0, 0.0, NAME, 400.0);
     hci_svg_name(out, "quiet", 0.0, 0.0, "Größe", 1.0);
+    hci_svg_name(out, "head end", 0.0, 0.0, "recordings/speed_control.csv", 162.0);
     end_part(out);
     const char *quiet = find(">…", 0), *bold = find(">…", 1),
-               *whole = find(">recordings/speed_control.csv<", 0);
+               *whole = find(">recordings_speed_control.csv<", 0);
     const size_t letters = strcspn(quiet + 1, "<"), letters_bold = strcspn(bold + 1, "<");
     TEST_ASSERT_TRUE(quiet < bold && bold < whole);
     TEST_ASSERT_TRUE(letters_bold < letters && letters < sizeof NAME);
     /* letters of 13 px in bold are 8.6 wide in this name on average: advances of DejaVu Sans Bold */
     TEST_ASSERT_TRUE(8.6 * (double)(letters_bold - 2) < 162.0 && letters_bold > 12);
     TEST_ASSERT_NOT_NULL(strstr(picture, ">…</text>"));
+    TEST_ASSERT_NOT_NULL(strstr(picture, ">…speed_control.csv</text>"));
+}
+
+/* What follows a semicolon of a page's heading is a list; not within parentheses, and a name keeps its
+ * letters. */
+static void test_heading_and_list(void)
+{
+    hci_output *out = begin_part();
+    hci_html_begin(
+        out, &(hci_html_opening){"k", "b", "It falls (from 3; to 1); i_q of `Iq` & more; check it", true});
+    end_part(out);
+    find("<title>It falls (from 3; to 1)</title>", 0);
+    find("<h1>It falls (from 3; to 1)</h1>\n<ul class=\"also\">\n<li>i_q of <code>Iq</code> &#38; more</li>\n"
+         "<li>Check it</li>\n</ul>",
+         0);
+}
+
+/* Torque has one unit, currents have prefixes. */
+static void test_quantities_of_a_page(void)
+{
+    static const struct {
+        double value;
+        const char *unit, *text;
+    } CASE[] = {{2.46289, "N·m", "2.463 N·m"}, {0.0048361, "N·m", "0.004836 N·m"}, {5e-5, "N·m", "50 µN·m"},
+                {1e-13, "N·m", "0 N·m"},       {0.0048361, "A", "4.836 mA"},       {1e-12, "%", "0 %"}};
+    for (size_t k = 0; k < sizeof CASE / sizeof *CASE; ++k) {
+        char text[HCI_HTML_NUMBER_SIZE];
+        hci_html_quantity_text(text, CASE[k].value, CASE[k].unit);
+        TEST_ASSERT_EQUAL_STRING(CASE[k].text, text);
+    }
 }
 
 static void test_text_is_escaped(void)
@@ -730,6 +762,8 @@ int main(void)
     RUN_TEST(test_nothing_from_outside);
     RUN_TEST(test_same_input_same_bytes_in_any_locale);
     RUN_TEST(test_nothing_is_allocated);
+    RUN_TEST(test_heading_and_list);
+    RUN_TEST(test_quantities_of_a_page);
     RUN_TEST(test_text_is_escaped);
     RUN_TEST(test_numbers_of_an_axis);
     RUN_TEST(test_labels_make_room);

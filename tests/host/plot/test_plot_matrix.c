@@ -192,7 +192,7 @@ static void test_map(void)
     static hci_diagnosis diagnosis = {.line = line, .lines = 4};
     map = (hci_plot_map){&diagnosis, &runs, shown, order, 2, 2};
     draw(put_map);
-    const double left = 42.0 + 0.24 * (524.0 - 42.0), width = (524.0 - left) / 2.0, high = HCI_ROWS_HEIGHT,
+    const double left = 42.0 + 130.0, width = (524.0 - left) / 2.0, high = HCI_ROWS_HEIGHT,
                  y = 66.0 + 0.5 * high;
     TEST_ASSERT_DOUBLE_WITHIN(0.02, 0.9 * high, side_at("before", left + 0.5 * width, y));
     TEST_ASSERT_DOUBLE_WITHIN(0.02, 0.9 * high * 0.5, side_at("plus", left + 0.5 * width, y));

@@ -55,6 +55,9 @@ void hci_expected_ripple_add_table(hci_expected_ripple *expected, double table_N
  * recordings, or a value of it is not believable. */
 bool hci_expected_ripple_is_doubtful(const hci_expected_ripple *expected);
 
+/* A bound as sentences and tables say it: two digits, rounded up. */
+double hci_ripple_bound_as_said(double value);
+
 /* What to expect in a few plain sentences. size: of text, 1024 will do. */
 void hci_expected_ripple_words(const hci_expected_ripple *expected, char *text, size_t size);
 

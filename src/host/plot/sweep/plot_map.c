@@ -125,15 +125,19 @@ static panel make_panel(const field *f, const layout *l, int place, const char *
     return p;
 }
 
-/* Steps of 1, 2, 5 that end below the largest ripple; the first level is none. */
+/* Ripple in % below which there is none on the map: a hundred orders within their tolerance make less. */
+#define LEAST_RIPPLE 0.01
+
+/* Steps of 1, 2, 5 that end below the largest ripple, or begin at the least one; the first level is none. */
 static void set_ripple_levels(panel *p, double most_percent)
 {
-    double level = hci_svg_nice_step(fmax(most_percent, 0.01) * 0.5);
-    for (int k = LEVELS - 1; k > 0; --k) {
-        p->level[k] = level;
-        level = hci_svg_nice_step(0.39 * level);
-    }
+    double first = hci_svg_nice_step(fmax(most_percent, LEAST_RIPPLE) * 0.5);
+    for (int k = LEVELS - 1; k > 1; --k)
+        first = hci_svg_nice_step(0.39 * first);
     p->level[0] = 0.0;
+    p->level[1] = fmax(first, LEAST_RIPPLE);
+    for (int k = 2; k < LEVELS; ++k)
+        p->level[k] = hci_svg_nice_step(1.9 * p->level[k - 1]);
 }
 
 /* Ripple in steps of 1, 2, 5; anything else in equal steps. */
@@ -225,6 +229,7 @@ static void draw_levels(hci_output *out, const panel *p)
 {
     const double top = p->box.bottom + 46.0, width = (p->box.right - p->box.left) / LEVELS;
     const double step = p->level[1] - p->level[0];
+    double free = p->box.left;
     for (int k = 0; k < LEVELS; ++k) {
         const double left = p->box.left + k * width;
         char style[16], text[HCI_SVG_NUMBER_SIZE];
@@ -234,8 +239,20 @@ static void draw_levels(hci_output *out, const panel *p)
             hci_svg_short_text(text, p->level[k]);
         else
             hci_svg_tick_text(text, p->level[k], step, fabs(p->level[LEVELS - 1]));
+        if (left < free) continue;
         hci_svg_label(out, "small quiet", left, top + 22.0, text);
+        free = left + hci_svg_text_width("small quiet", text);
     }
+}
+
+/* Whether a limit of that class binds at a point that is drawn. */
+static bool has_class(const field *f, int class)
+{
+    for (size_t k = 0; k < f->sweep->plan.count; ++k)
+        if (is_drawn(f, k) && f->sweep->row[k].verdict <= HCI_GRID_TORQUE &&
+            limit_class(&f->sweep->row[k].best) == class)
+            return true;
+    return false;
 }
 
 static void draw_kinds(hci_output *out, const panel *p)
@@ -245,6 +262,7 @@ static void draw_kinds(hci_output *out, const panel *p)
     double left = p->box.left;
     for (int k = 0; k < (int)(sizeof NAME / sizeof NAME[0]); ++k) {
         char style[16];
+        if (!has_class(p->field, k)) continue;
         snprintf(style, sizeof style, "kind%d", k);
         hci_svg_rectangle(out, style, left, top, left + 10.0, top + 10.0);
         hci_svg_label(out, "small quiet", left + 13.0, top + 9.0, NAME[k]);
@@ -264,7 +282,7 @@ static void draw_panel(hci_output *out, panel *p)
     else
         draw_kinds(out, p);
     hci_svg_label(out, "quiet middle", 0.5 * (p->box.left + p->box.right), p->box.bottom + 36.0,
-                  "speed in rpm");
+                  "speed in rpm; upwards: torque in N·m");
 }
 
 /* ---- all of it ---- */

@@ -120,6 +120,8 @@ static void draw_hints(hci_output *out, const panel *p, const hci_svg_axis *x)
     }
 }
 
+static const char UNREACHED[] = "not reached";
+
 /* Where the limit does not let the torque be reached. */
 static void draw_unreached(hci_output *out, const panel *p, const hci_svg_axis *x)
 {
@@ -128,8 +130,8 @@ static void draw_unreached(hci_output *out, const panel *p, const hci_svg_axis *
         if (is_shown(p, k)) least = fmin(least, limit_of(p, k));
     if (!(least > x->low && least < HUGE_VAL)) return;
     hci_svg_rectangle(out, "band", p->box->left, p->box->top, hci_svg_at(x, least), p->box->bottom);
-    if (hci_svg_at(x, least) - p->box->left > 70.0)
-        hci_svg_label(out, "small quiet", p->box->left + 6.0, p->box->top + 16.0, "not reached");
+    if (hci_svg_at(x, least) - p->box->left > hci_svg_text_width("small quiet", UNREACHED) + 18.0)
+        hci_svg_label(out, "small quiet", p->box->left + 6.0, p->box->top + 16.0, UNREACHED);
 }
 
 /* Over the limits alone, without zero. */

@@ -14,7 +14,14 @@ static bool is_named(const hci_diagnosis *d, const hci_finding *f, hci_finding_v
     return f->verdict == verdict && strcmp(f->effect, "unknown") != 0 && !hci_finding_is_part(d, f);
 }
 
-/* "reluctance, saturation and back_emf": what has a verdict and a name; "" for none. */
+/* As people say it: files have the name. */
+static const char *title_of(const hci_finding *f)
+{
+    const hci_effect_type *type = hci_effect_type_find(f->effect);
+    return type ? type->title : f->effect;
+}
+
+/* "reluctance torque, saturation and back-EMF": what has a verdict and a name; "" for none. */
 static void names_of(const hci_diagnosis *d, hci_finding_verdict verdict, char text[NAMES_SIZE])
 {
     size_t left = 0, used = 0;
@@ -27,7 +34,7 @@ static void names_of(const hci_diagnosis *d, hci_finding_verdict verdict, char t
                               : left > 1                     ? ", "
                               : verdict == HCI_FINDING_ADDED ? " and "
                                                              : " or ";
-        used += (size_t)snprintf(text + used, NAMES_SIZE - used, "%s%s", between, d->finding[k].effect);
+        used += (size_t)snprintf(text + used, NAMES_SIZE - used, "%s%s", between, title_of(&d->finding[k]));
         --left;
     }
 }
@@ -51,6 +58,15 @@ static void heading_of(const hci_diagnosis *d, char text[NAMES_SIZE + 128])
         snprintf(text, NAMES_SIZE + 128, "What the model lacks is not known");
 }
 
+/* How the words of a diagnosis begin that the heading says already. */
+static const char LACKED[] = "The model lacked ";
+
+static const char *next_sentence(const char *text)
+{
+    const char *end = strstr(text, ". ");
+    return end ? end + 2 : text;
+}
+
 static void say_verdict(hci_output *out, const hci_diagnosis *d, const char *machine)
 {
     static const char *const BADGE[] = {"Nothing is missing", "Explained", "Ambiguous", "Partly explained",
@@ -62,7 +78,8 @@ static void say_verdict(hci_output *out, const hci_diagnosis *d, const char *mac
     hci_html_begin(out,
                    &(hci_html_opening){kicker, d->odd.file ? "One recording disagrees" : BADGE[d->verdict],
                                        heading, d->verdict <= HCI_DIAGNOSIS_EXPLAINED && !d->odd.file});
-    hci_html_paragraph(out, "lead", words);
+    hci_html_paragraph(out, "lead",
+                       strncmp(words, LACKED, sizeof LACKED - 1) == 0 ? next_sentence(words) : words);
 }
 
 /* ---- before and after ---- */
@@ -102,7 +119,8 @@ static void say_what_is_left(hci_output *out, const hci_diagnosis *d)
     hci_html_number_text(ratio, times);
     if (!(d->noise_Nm > 0.0) || !isfinite(times)) return;
     if (times <= 1.5)
-        hci_html_say(out, NULL, "What is left of the fitted runs, %s N·m, is about their noise.", left);
+        hci_html_say(out, NULL, "What is left of the fitted runs, %s N·m, is about their noise%s.", left,
+                     hci_page_is_chance(d) ? "" : " in sum; single orders stand out of it");
     else
         hci_html_say(
             out, NULL,

@@ -94,7 +94,19 @@ static void table_of_orders(hci_output *out, const orders *o, const hci_runs *ru
     hci_html_table_end(out);
 }
 
-static void heading_of_orders(const orders *o, char text[256])
+/* Amplitudes that are listed, of those that chance lists: it exceeds the noise once in so many times. */
+#define ONCE_IN 20.0
+
+bool hci_page_is_chance(const hci_diagnosis *d)
+{
+    const double amplitudes = ONCE_IN * fmax((double)d->lines, 1.0);
+    const double most = sqrt(1.0 + log(amplitudes) / log(ONCE_IN));
+    for (size_t k = 0; k < d->lines; ++k)
+        if (d->line[k].after_Nm > most * d->line[k].noise_Nm) return false;
+    return true;
+}
+
+static void heading_of_orders(const hci_diagnosis *d, const orders *o, char text[256])
 {
     char before[HCI_HTML_NUMBER_SIZE], after[HCI_HTML_NUMBER_SIZE], order[HCI_HTML_NUMBER_SIZE];
     double most_before_Nm = 0.0;
@@ -106,11 +118,15 @@ static void heading_of_orders(const orders *o, char text[256])
     hci_html_number_text(before, most_before_Nm);
     hci_html_number_text(after, o->order[most].after_Nm);
     hci_html_number_text(order, o->order[most].order);
-    snprintf(text, 256, "The largest order that is left, %s, has %s N·m; before, the largest had %s N·m",
-             order, after, before);
+    if (hci_page_is_chance(d))
+        snprintf(text, 256, "What is left is noise at each order; before, the largest had %s N·m", before);
+    else
+        snprintf(text, 256, "The largest order that is left, %s, has %s N·m; before, the largest had %s N·m",
+                 order, after, before);
 }
 
-static void show_orders(hci_output *out, const orders *o, const hci_runs *runs, const char *origin)
+static void show_orders(hci_output *out, const hci_diagnosis *d, const orders *o, const hci_runs *runs,
+                        const char *origin)
 {
     const hci_plot_orders_data data = {o->order, o->count, "Torque error in N·m, peak", "noise", true};
     const hci_html_drawing drawing = {
@@ -127,7 +143,7 @@ static void show_orders(hci_output *out, const orders *o, const hci_runs *runs, 
         .draw = hci_plot_orders,
         .context = &data};
     char heading[256];
-    heading_of_orders(o, heading);
+    heading_of_orders(d, o, heading);
     hci_html_section(out, heading);
     hci_html_drawing_begin(out, &drawing);
     table_of_orders(out, o, runs);
@@ -191,8 +207,13 @@ static void heading_of_map(const hci_diagnosis *d, const hci_runs *runs, char te
     size_t most = 0;
     for (size_t k = 0; k < d->lines; ++k)
         if (d->line[k].after_Nm > d->line[most].after_Nm) most = k;
+    const char *name = runs->run[d->line[most].run].name;
     hci_html_number_text(order, d->line[most].order);
-    snprintf(text, 512, "Most is left at order %s in %s", order, runs->run[d->line[most].run].name);
+    if (hci_page_is_chance(d))
+        snprintf(text, 512, "In no recording is more left than noise");
+    else
+        snprintf(text, 512, "Most is left at order %s in %s", order,
+                 strrchr(name, '/') ? strrchr(name, '/') + 1 : name);
 }
 
 static void show_map(hci_output *out, const hci_diagnosis *d, const orders *o, const hci_runs *runs,
@@ -237,7 +258,7 @@ hci_status hci_page_residual(hci_output *out, const hci_diagnosis *d, const hci_
         hci_html_paragraph(out, "quiet",
                            "No order of the residual stands out of the noise, before or after.");
     if (!status && o.count > 0) {
-        show_orders(out, &o, runs, origin);
+        show_orders(out, d, &o, runs, origin);
         show_map(out, d, &o, runs, origin);
     }
     hci_memory_free(o.order);

@@ -11,6 +11,10 @@ void hci_page_findings(hci_output *out, const hci_diagnosis *diagnosis, const ch
 /* Errors run by run, and which runs had a slip of the index. */
 void hci_page_run_errors(hci_output *out, const hci_diagnosis *diagnosis, const char *origin);
 
+/* Whether no amplitude that is left, of a run and an order, is larger than chance makes one in so many, once
+ * in twenty times; of a single one the noise is that. */
+bool hci_page_is_chance(const hci_diagnosis *diagnosis);
+
 /* What is left by order, and by run and order. HCI_ERROR_MEMORY. */
 hci_status hci_page_residual(hci_output *out, const hci_diagnosis *diagnosis, const hci_runs *runs,
                              const char *origin, hci_note *note);

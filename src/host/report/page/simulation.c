@@ -6,6 +6,9 @@
 #include "host/report/page/page.h"
 #include "host/report/page/simulation_sections.h"
 
+/* A ripple below this is rounding. */
+#define ROUNDING_PERCENT 1e-9
+
 /* The main results, at the top of the page. */
 static void say_facts(hci_output *out, const hci_simulation *s)
 {
@@ -38,7 +41,9 @@ static void say_verdict(hci_output *out, const hci_simulation *s, const char *ma
     char heading[256], kicker[512], mean[HCI_HTML_NUMBER_SIZE], ripple[HCI_HTML_NUMBER_SIZE];
     hci_html_quantity_text(mean, s->torque_Nm.mean, "N·m");
     hci_html_number_text(ripple, s->T_ripple_percent);
-    if (isfinite(s->T_ripple_percent))
+    if (s->T_ripple_percent < ROUNDING_PERCENT)
+        snprintf(heading, sizeof heading, "The drive makes %s without ripple", mean);
+    else if (isfinite(s->T_ripple_percent))
         snprintf(heading, sizeof heading, "The drive makes %s with %s %% of ripple", mean, ripple);
     else
         snprintf(heading, sizeof heading, "The drive makes %s on average", mean);

@@ -68,13 +68,13 @@ static int by_order(const void *a, const void *b)
 }
 
 /* The median: what switching, noise and steps leave at any order, since what repeats with the turn is at few
- * of them. */
-static void set_floor(hci_plot_order *order, size_t count)
+ * of them. None where that is rounding alone. */
+static void set_floor(hci_plot_order *order, size_t count, double least_Nm)
 {
     if (count < LEAST_FOR_FLOOR) return;
     qsort(order, count, sizeof *order, by_size);
     const double floor_Nm = order[count / 2].after_Nm;
-    for (size_t k = 0; k < count; ++k)
+    for (size_t k = 0; k < count && floor_Nm >= least_Nm; ++k)
         order[k].noise_Nm = floor_Nm;
     qsort(order, count, sizeof *order, by_order);
 }
@@ -108,7 +108,12 @@ static void heading_of(const hci_simulation *s, const hci_plot_order *order, cha
     hci_html_number_text(number, order[most].order);
     hci_html_quantity_text(after, order[most].after_Nm, "N·m");
     hci_html_quantity_text(before, before_Nm, "N·m");
-    if (hci_page_has_before(s))
+    if (order[most].after_Nm < rounding_Nm(s))
+        snprintf(text, 256,
+                 hci_page_has_before(s) ? "No order is left; the largest of a plain sine has %s"
+                                        : "No order is there",
+                 before);
+    else if (hci_page_has_before(s))
         snprintf(text, 256, "The largest order, %s, has %s; that of a plain sine has %s", number, after,
                  before);
     else
@@ -152,7 +157,7 @@ hci_status hci_page_spectrum(hci_output *out, const hci_simulation *s, const cha
                                         .after_Nm = hci_amplitude(h.sine, h.cosine),
                                         .noise_Nm = NAN};
     }
-    set_floor(order, s->spectrum_count - 1);
+    set_floor(order, s->spectrum_count - 1, rounding_Nm(s));
     show_orders(out, s, order, origin);
     hci_memory_free(order);
     return HCI_OK;

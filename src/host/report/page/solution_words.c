@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "hci/host/machine/expected_ripple.h"
 #include "host/report/page/solution_sections.h"
 
 enum { CELL_SIZE = 128 };
@@ -112,6 +113,20 @@ static void cell_of_ripple(char text[CELL_SIZE], const hci_solution *s, double s
         snprintf(text, CELL_SIZE, "%s", in_Nm);
 }
 
+/* As the sentences below the table say it. */
+static void cell_of_bound(char text[CELL_SIZE], const hci_solution *s)
+{
+    const double bound_Nm = hci_ripple_bound_as_said(s->expected.peak_to_peak_Nm);
+    char in_Nm[HCI_PAGE_SWING_SIZE];
+    hci_page_swing(in_Nm, (hci_range){0.0, bound_Nm}, s->tolerance_Nm);
+    snprintf(text, CELL_SIZE, "at most %s", in_Nm);
+    if (fabs(mean_Nm(s)) > NO_MEAN * bound_Nm && bound_Nm >= s->tolerance_Nm)
+        snprintf(text + strlen(text), CELL_SIZE - strlen(text), "|%.2g %% of the mean (95 %%)",
+                 hci_ripple_bound_as_said(s->expected.T_ripple_percent));
+    else
+        snprintf(text + strlen(text), CELL_SIZE - strlen(text), "|95 %%");
+}
+
 static void row_of(hci_output *out, const char *name, const char *before, const char *after,
                    const char *machine)
 {
@@ -137,8 +152,7 @@ static void row_of_ripple(const hci_solution_page *p)
     }
     cell_of_ripple(before, s, swing_Nm(p->facts.before_Nm), has_mean(s) ? s->order[0].before_Nm.cosine : 0.0);
     cell_of_ripple(after, s, swing_Nm(p->facts.after_Nm), mean_Nm(s));
-    if (s->expected.state == HCI_RIPPLE_KNOWN)
-        cell_of_ripple(machine, s, s->expected.peak_to_peak_Nm, mean_Nm(s));
+    if (s->expected.state == HCI_RIPPLE_KNOWN) cell_of_bound(machine, s);
     row_of(p->out, "Torque ripple, peak to peak", before, after, machine);
 }
 
@@ -180,7 +194,6 @@ void hci_page_before_and_after(const hci_solution_page *p)
     hci_html_compare_end(p->out);
     hci_expected_ripple_words(&s->expected, expected, sizeof expected);
     hci_html_say(p->out, "quiet", "On the real machine: %s", expected);
-    if (s->remark.text[0]) hci_html_paragraph(p->out, "quiet", s->remark.text);
 }
 
 void hci_page_solution_verdict(const hci_solution_page *p, hci_status verdict, const char *machine)
@@ -192,4 +205,5 @@ void hci_page_solution_verdict(const hci_solution_page *p, hci_status verdict, c
                                                verdict == HCI_OK});
     say_lead(p);
     hci_page_before_and_after(p);
+    if (p->solution->remark.text[0]) hci_html_paragraph(p->out, "quiet", p->solution->remark.text);
 }

@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "host/draw/html.h"
 #include "host/plot/sweep/plot_sweep.h"
@@ -111,16 +112,21 @@ static void rows_of_envelope(hci_output *out, const hci_grid *s)
 
 /* ---- map ---- */
 
+/* How many points there are of each verdict, of which there are any. */
 static void say_map(hci_output *out, const hci_grid *s)
 {
+    static const char *const OF[] = {"without ripple", "with the smallest ripple there is",
+                                     "with less torque than is wanted", "where no current keeps the limits",
+                                     "without a result"};
     size_t count[HCI_GRID_FAILED + 1];
+    char text[320];
     hci_grid_count(s, count);
-    hci_html_say(
-        out, NULL,
-        "Of %zu points %zu have no ripple, %zu the smallest there is, %zu less torque than is wanted; at %zu "
-        "no current keeps the limits, and %zu have no result.",
-        s->plan.count, count[HCI_GRID_REACHED], count[HCI_GRID_RIPPLE], count[HCI_GRID_TORQUE],
-        count[HCI_GRID_LIMITS], count[HCI_GRID_FAILED]);
+    snprintf(text, sizeof text, "%zu points", s->plan.count);
+    for (size_t k = 0; k <= HCI_GRID_FAILED; ++k)
+        if (count[k] > 0)
+            snprintf(text + strlen(text), sizeof text - strlen(text), "%s %zu %s",
+                     strchr(text, ':') ? "," : ":", count[k], OF[k]);
+    hci_html_say(out, NULL, "%s.", text);
 }
 
 static void map_row(hci_output *out, const hci_grid_row *row)

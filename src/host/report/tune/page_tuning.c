@@ -61,6 +61,14 @@ static void show_before_and_after(const hci_solution_page *page, double table_Nm
     hci_page_before_and_after(&p);
 }
 
+/* What the solution remarks and the heading does not say. */
+static void say_remark(hci_output *out, const hci_tuning *t)
+{
+    const hci_solution *s = t->solution;
+    if (s->remark.text[0] && !(s->corrections[0] && strstr(t->heading, s->corrections)))
+        hci_html_paragraph(out, "quiet", s->remark.text);
+}
+
 /* What is set in belongs to the line above it. */
 static void say_lines(hci_output *out, const char *text)
 {
@@ -175,6 +183,7 @@ void hci_page_tuning(hci_output *out, const hci_tuning *t)
         p.is_cut = t->table_Nm > 0.0;
         p.ripple_is_unknown = !hci_tuning_knows_ripple(t->solution);
         show_before_and_after(&p, t->table_Nm);
+        say_remark(out, t);
         show_log(out, t);
         show_open_torque(out, t);
         if (!p.ripple_is_unknown) hci_page_torque(&p);

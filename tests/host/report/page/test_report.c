@@ -220,14 +220,20 @@ static void test_diagnosis(void)
     write_diagnosis(NULL);
     check_page(2 * 4); /* each for a screen and for a telephone */
     hci_diagnosis_words(&diagnosis, words, sizeof words);
-    text_has(words, page);
+    text_has(strstr(words, "On the runs"), page); /* what stands before it is the heading */
+    text_lacks("<p class=\"lead\">The model lacked", page);
     text_has("badge good\">Explained</span> <span class=\"topic\">Diagnosis of a machine model · "
              "data/&#60;machine&#62;</span></p>",
              page);
-    text_has("<h1>The model lacked cogging</h1>", page);
+    text_has("<h1>The model lacked cogging torque</h1>", page);
     text_has("Looked for and not needed: friction.", page);
     text_has("<td>0.5 N·m</td><td>0.004 N·m</td><td>0.003 N·m</td>", page);
-    text_has("What is left of the fitted runs, 0.004 N·m, is about their noise.", page);
+    text_has("What is left of the fitted runs, 0.004 N·m, is about their noise in sum; single orders stand "
+             "out of it.",
+             page);
+    text_has("<h2>The largest order that is left, 0, has 0.001 N·m; before, the largest had 0.2 N·m</h2>",
+             page);
+    text_has("<h2>Most is left at order 0 in 0.csv</h2>", page);
     text_has("Machine: data/&#60;machine&#62;", page);
     text_has("List of runs: bench/&#60;runs&#62;.csv", page);
     text_has("Made from: data/&#60;machine&#62;, bench/&#60;runs&#62;.csv.", page);
@@ -280,6 +286,21 @@ static void test_largest_of_each_order(void)
     char *table = strstr(page, "<caption>The largest 3 of 3 orders"), *end = strstr(table, "</table>");
     *end = '\0';
     TEST_ASSERT_NULL(strstr(table, "<data value=\"0.04\">")); /* order 6 of run 1 before, the smaller one */
+}
+
+/* Of six amplitudes that are listed, of 120, chance makes one of 1.61 times the noise once in twenty times:
+ * sqrt(1 + ln 120 / ln 20). */
+static void test_chance_is_no_order(void)
+{
+    for (size_t k = 0; k < LINES; ++k)
+        line[k].after_Nm = 1.6 * line[k].noise_Nm;
+    write_diagnosis(NULL);
+    text_has("What is left of the fitted runs, 0.004 N·m, is about their noise.", page);
+    text_has("<h2>What is left is noise at each order; before, the largest had 0.2 N·m</h2>", page);
+    text_has("<h2>In no recording is more left than noise</h2>", page);
+    line[2].after_Nm = 1.63 * line[2].noise_Nm;
+    write_diagnosis(NULL);
+    text_has("<h2>Most is left at order 12 in 0.csv</h2>", page);
 }
 
 static void test_other_verdicts(void)
@@ -834,6 +855,7 @@ int main(void)
     RUN_TEST(test_diagnosis);
     RUN_TEST(test_what_is_left_above_the_noise);
     RUN_TEST(test_largest_of_each_order);
+    RUN_TEST(test_chance_is_no_order);
     RUN_TEST(test_other_verdicts);
     RUN_TEST(test_what_is_seldom);
     RUN_TEST(test_hostile_names);
