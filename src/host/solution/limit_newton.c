@@ -23,6 +23,8 @@ enum {
 #define BESIDE  0.1  /* of the spacing of samples: where slopes over the angle are taken */
 #define APART   16.0 /* samples within which a row of the program is that of a peak */
 #define ARRIVED 1e-9 /* step as a share of the currents with which it is there */
+#define RESTING 1e-7 /* the same after all steps, which peaks that merge make slow: limits miss its square   \
+                      */
 #define MISSED  1e-7 /* share of the torque by which it may be beyond its range between the angles */
 #define PULL    1e-5 /* to the last currents where the copper is not what is minimised */
 #define LONGEST 0.3  /* the same, with which it was not near enough */
@@ -608,7 +610,7 @@ static hci_status come_to_rest(newton *w)
     w->moved = 1.0;
     for (int k = 0; k < MOST_STEPS && w->moved > ARRIVED && !w->has_failed && !status; ++k)
         status = step(w);
-    w->has_failed = w->has_failed || w->moved > ARRIVED;
+    w->has_failed = w->has_failed || w->moved > RESTING;
     return status;
 }
 

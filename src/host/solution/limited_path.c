@@ -10,8 +10,8 @@
 
 enum {
     MOST_STEPS = 60,
-    PATIENCE = 4, /* steps in which neither the change is halved nor the torque better, after which the
-                   * distance is bounded */
+    PATIENCE = 4, /* steps in which neither the change is halved nor the torque much better, after which
+                   * the distance is bounded */
     POLISHES = 2, /* steps after the last, each within less of it */
     HALVES = 5    /* of the currents that the first step begins at, where rounding spoils it */
 };
@@ -31,6 +31,7 @@ enum {
 #define POLISHED      5e-8 /* share of the torque; an error of the mean below that leaves nothing to it */
 #define IDLE          0.5  /* of the worst order: another that stays below that acts on no step */
 #define LEAST_SHARE   0.1  /* of the way to an answer */
+#define NOTABLE       0.1 /* share of the errors by which a step without a bound makes the torque much better */
 #define SHRINK        0.3
 #define AFTER_FAILURE 0.1 /* the same after a step that rounding spoils */
 #define GROW          2.0
@@ -55,7 +56,8 @@ typedef struct {
     double share, least_change;
     double promised_Nm; /* less ripple, by what is linear, of the last step within a bound */
     int patience;       /* steps without better torque or half of the change after which it is bounded */
-    int idle, halved;   /* steps since the least change was halved; how often the first currents were */
+    int idle;           /* steps since the least change was halved or the torque became much better */
+    int halved;         /* how often the currents of the first step were */
     int slow;           /* steps within a bound since one made more of the torque than LEFT */
     double tried_A;     /* bound of the step that is being corrected, see correct; 0: none is */
     bool is_ended;      /* for want of further steps */
@@ -103,6 +105,7 @@ static hci_status step(const path *p, hci_note *note)
     hci_wishes *w = p->wishes;
     hci_task *t = w->of->task;
     hci_status status = waves_of(w, p->from, &w->current, note);
+    w->best = p->best;
     w->program.centre = p->from;
     w->program.radius_A = p->radius_A;
     w->program.idle_Nm = has_idle_orders(p) ? IDLE * p->merit.ripple_Nm : 0.0;
@@ -209,11 +212,12 @@ static void bound(path *p)
     memcpy(p->from, p->best, p->n * sizeof *p->from);
 }
 
-/* Whether for a while the change has not been halved and the torque not been better. */
-static bool is_restless(path *p, bool is_better)
+/* Whether for a while the change has not been halved and the torque not been much better. was_Nm: see
+ * move_bounded. */
+static bool is_restless(path *p, double was_Nm)
 {
     ++p->idle;
-    if (is_better) p->idle = 0;
+    if (was_Nm - weighed_Nm(p, &p->merit) > NOTABLE * was_Nm) p->idle = 0;
     if (p->change < 0.5 * p->least_change) {
         p->least_change = p->change;
         p->idle = 0;
@@ -231,15 +235,16 @@ static void correct(path *p)
 }
 
 /* The bound of the next step from the best answer on. A step that made much less than what was linear
- * promised is no reason for a longer one. */
+ * promised is no reason for a longer one, and with its correction for one as long. */
 static void bound_next(path *p, bool is_better, double gained_Nm)
 {
     const double moved_A = distance(p, p->wishes->x, p->from);
+    const bool is_held = gained_Nm > HELD * p->promised_Nm;
     if (p->tried_A > 0.0)
-        p->radius_A = p->tried_A * (is_better ? 1.0 : SHRINK);
+        p->radius_A = p->tried_A * (is_better && is_held ? 1.0 : SHRINK);
     else if (!is_better)
         p->radius_A = SHRINK * fmin(p->radius_A, moved_A);
-    else if (moved_A > 0.9 * p->radius_A && (!is_weighed(p) || gained_Nm > HELD * p->promised_Nm))
+    else if (moved_A > 0.9 * p->radius_A && (!is_weighed(p) || is_held))
         p->radius_A *= GROW;
     p->tried_A = 0.0;
     memcpy(p->from, p->best, p->n * sizeof *p->from);
@@ -292,7 +297,7 @@ static hci_status advance(path *p, hci_note *note)
     p->change = distance(p, p->wishes->x, p->from) / fmax(length(p, p->wishes->x), 1e-12);
     if (p->radius_A > 0.0)
         move_bounded(p, is_better, was_Nm);
-    else if (is_restless(p, is_better))
+    else if (is_restless(p, was_Nm))
         bound(p);
     else
         move_freely(p, before);
@@ -438,6 +443,7 @@ static void end(path *p)
     hci_anderson_release(&p->mixing);
     hci_memory_free(p->best);
     p->wishes->program.centre = NULL;
+    p->wishes->best = NULL;
 }
 
 hci_status hci_limited_path_follow(hci_wishes *wishes, double *from, hci_note *note)

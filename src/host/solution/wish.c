@@ -17,7 +17,7 @@ enum {
 
 #define ROUGH  1e-6 /* of the solver while peaks are still looked for */
 #define STILL  1e-5 /* change of what is minimised below which it becomes precise too */
-#define NEAR   0.97 /* share of a limit from which a peak of the last answer is kept as a row */
+#define NEAR   0.99 /* share of a limit from which a peak of the last answer is kept as a row */
 #define BESIDE 0.25 /* of the spacing of samples: of points nearer than that the last is kept */
 #define FLAT   1e-4 /* share of the torque below which its swing tells nothing */
 #define IDLE   0.7  /* share of a limit below which an angle is left out until a peak is there */
@@ -124,19 +124,26 @@ static bool is_repeated(const hci_limit_program *p, size_t k)
     return false;
 }
 
+/* Whether currents are next to the limit of point k; x: NULL: none. */
+static bool is_near(const hci_wishes *l, size_t k, const double *x)
+{
+    const hci_limit_program *p = &l->program;
+    const hci_limit_point *at = &p->points.point[k];
+    if (!x) return false;
+    const double limit = hci_limit_of_point(p->bounds, at->kind, at->phase) * (1.0 + p->widened),
+                 *row = hci_limit_points_row(&p->points, k);
+    return fabs(hci_limit_value(at->kind, 2 * l->set.count, row, x)) >= NEAR * limit;
+}
+
 hci_status hci_wish_forget(hci_wishes *l, hci_note *note)
 {
     hci_limit_program *p = &l->program;
-    const size_t n = 2 * l->set.count;
     size_t kept = 0;
     if (!l->x) return HCI_OK;
     if (hci_limit_points_fill(&p->field, &p->points)) return out_of_memory(note);
     for (size_t k = 0; k < p->points.count; ++k) {
-        const hci_limit_point *at = &p->points.point[k];
         if (is_repeated(p, k)) continue;
-        const double limit = hci_limit_of_point(p->bounds, at->kind, at->phase) * (1.0 + p->widened),
-                     *row = hci_limit_points_row(&p->points, k);
-        if (at->kind == HCI_POINT_TORQUE || fabs(hci_limit_value(at->kind, n, row, l->x)) >= NEAR * limit)
+        if (p->points.point[k].kind == HCI_POINT_TORQUE || is_near(l, k, l->x) || is_near(l, k, l->best))
             hci_limit_points_keep(&p->points, k, kept++);
     }
     hci_limit_points_cut(&p->points, kept);

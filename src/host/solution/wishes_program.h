@@ -27,7 +27,8 @@ typedef struct {
     hci_limit_program program;
     hci_limit_rest rest[HCI_STAGE_COPPER + 1]; /* of each stage the last one */
     double *x;                                 /* S and C of each component, A: what was found */
-    size_t rounds;                             /* programs solved so far */
+    const double *best; /* the same of the best step, whose peaks stay rows as those of x do; NULL: none */
+    size_t rounds;      /* programs solved so far */
     size_t steps;   /* in which the torque was made linear so far, of those before too that it goes on from */
     bool is_ended;  /* for so many of them */
     bool is_coarse; /* the torque is still being made linear: peaks may stay for the next step */
