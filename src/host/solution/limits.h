@@ -2,8 +2,8 @@
 #ifndef HCI_SRC_HOST_SOLUTION_LIMITS_H
 #define HCI_SRC_HOST_SOLUTION_LIMITS_H
 
-#include "host/solution/bounds.h"
-#include "host/solution/limit_program.h"
+#include "host/limit/bounds.h"
+#include "host/limit/program.h"
 
 /* Names the limits there are in solution->limit, without values. */
 void hci_limits_list(const hci_bounds *bounds, hci_solution *solution);

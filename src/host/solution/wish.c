@@ -5,8 +5,8 @@
 
 #include "core/math/vector.h"
 #include "host/base/memory.h"
-#include "host/solution/limit_newton.h"
-#include "host/solution/limit_stage.h"
+#include "host/limit/newton.h"
+#include "host/limit/stage.h"
 
 enum {
     FEW = 12, /* peaks that are left when it becomes precise */

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "host/base/memory.h"
-#include "host/solution/limit_newton.h"
+#include "host/limit/newton.h"
 #include "host/solution/wish.h"
 
 enum { MOST_SLACKS = 4 }; /* of tenfold room for the least copper */

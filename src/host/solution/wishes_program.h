@@ -3,8 +3,8 @@
 #ifndef HCI_SRC_HOST_SOLUTION_WISHES_PROGRAM_H
 #define HCI_SRC_HOST_SOLUTION_WISHES_PROGRAM_H
 
+#include "host/limit/program.h"
 #include "host/machine/torque_gradient.h"
-#include "host/solution/limit_program.h"
 #include "host/solve/task.h"
 
 /* What is solved, and where it goes. */

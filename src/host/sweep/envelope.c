@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/limit/bounds.h"
 #include "host/machine/quadratic_model.h"
-#include "host/solution/bounds.h"
 #include "host/sweep/figures.h"
 
 enum { MOST_TRIALS = 20, MOST_FAILURES = 4, MOST_STEPS = 30, SPARE_ORDERS = 8 };

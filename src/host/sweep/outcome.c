@@ -7,7 +7,7 @@
 #include "hci/host/base/number.h"
 #include "hci/host/sweep/sweep.h"
 #include "host/base/words.h"
-#include "host/solution/bounds.h"
+#include "host/limit/bounds.h"
 
 const hci_grid_row *hci_grid_least(const hci_grid *s, bool of_copper, double ripple_percent)
 {

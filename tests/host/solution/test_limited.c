@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "host/base/memory.h"
-#include "host/solution/voltage.h"
+#include "host/limit/voltage.h"
 #include "support/reference.h"
 #include "unity.h"
 

@@ -1,6 +1,6 @@
-/* A stage as a convex program: its rows (limit_rows.h) and its objective to the solver, and its answer back.
+/* A stage as a convex program: its rows (rows.h) and its objective to the solver, and its answer back.
  */
-#include "host/solution/limit_stage.h"
+#include "host/limit/stage.h"
 
 #include <math.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "core/math/vector.h"
 #include "host/base/memory.h"
 #include "host/conic/solve.h"
-#include "host/solution/limit_rows.h"
+#include "host/limit/rows.h"
 
 #define LEAST_PRICE 1e-9 /* of current where nothing else prices it, lest it be without bounds */
 #define LOW_PRICE   1e-7 /* the same beside the ripple, so that it is the same currents that are looked for */

@@ -1,6 +1,6 @@
 /* The limits of one solve: which of what is asked for and what the machine declares holds, and what
  * contradicts itself. */
-#include "host/solution/bounds.h"
+#include "host/limit/bounds.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,9 +1,9 @@
 /* One stage of solving within limits, as a convex program (theory.md, section 15). */
-#ifndef HCI_SRC_HOST_SOLUTION_LIMIT_STAGE_H
-#define HCI_SRC_HOST_SOLUTION_LIMIT_STAGE_H
+#ifndef HCI_SRC_HOST_LIMIT_STAGE_H
+#define HCI_SRC_HOST_LIMIT_STAGE_H
 
 #include "host/conic/problem.h"
-#include "host/solution/limit_build.h"
+#include "host/limit/build.h"
 
 /* What ends the solution of a stage, from its program and its answer or, without one (NULL), from where it
  * ended last; HCI_ERROR_MEMORY, without a note. */

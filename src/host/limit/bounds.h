@@ -1,6 +1,6 @@
 /* The limits of one solve, from what is asked for and what the machine declares. */
-#ifndef HCI_SRC_HOST_SOLUTION_BOUNDS_H
-#define HCI_SRC_HOST_SOLUTION_BOUNDS_H
+#ifndef HCI_SRC_HOST_LIMIT_BOUNDS_H
+#define HCI_SRC_HOST_LIMIT_BOUNDS_H
 
 #include "hci/host/solve/solve.h"
 

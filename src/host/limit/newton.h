@@ -1,9 +1,9 @@
 /* The optimum of a stage by Newton's method, from an answer that is near it (theory.md, section 15). */
-#ifndef HCI_SRC_HOST_SOLUTION_LIMIT_NEWTON_H
-#define HCI_SRC_HOST_SOLUTION_LIMIT_NEWTON_H
+#ifndef HCI_SRC_HOST_LIMIT_NEWTON_H
+#define HCI_SRC_HOST_LIMIT_NEWTON_H
 
 #include "host/conic/problem.h"
-#include "host/solution/limit_build.h"
+#include "host/limit/build.h"
 
 /* From the program of a stage and its answer, or without one (NULL) from where it came to rest last, to where
  * the conditions of Karush, Kuhn and Tucker hold with the limits at every angle: fills *optimum, sets its

@@ -1,5 +1,5 @@
 /* Rows of a program whose memory is out. */
-#include "host/solution/limit_build.h"
+#include "host/limit/build.h"
 
 #include <stdint.h>
 #include <string.h>

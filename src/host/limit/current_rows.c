@@ -1,7 +1,7 @@
 /* Rows of what is limited: currents, voltages and torque at the angles of the grids and the points beside
  * them; how large the currents are as a whole, which is heat of each phase and of all and the distance from
  * the last answer; and phases that carry none. */
-#include "host/solution/limit_rows.h"
+#include "host/limit/rows.h"
 
 #include <math.h>
 

@@ -2,9 +2,9 @@
  * without it, to the same precision, and a beginning that leads nowhere leaves the answer it was given. The
  * library's function is replaced by one that lets it be used, refuses, or begins far off. */
 #define hci_limit_newton newtons_method
-#include "host/solution/limit_newton.h"
+#include "host/limit/newton.h"
 
-#include "host/solution/limit_newton.c"
+#include "host/limit/newton.c"
 #undef hci_limit_newton
 hci_limit_finish hci_limit_newton;
 

@@ -1,6 +1,6 @@
 /* The voltage that currents need at one speed: v = R i + d(L(θ) i)/dt + ω_m e(θ), and what effects add. */
-#ifndef HCI_SRC_HOST_SOLUTION_VOLTAGE_H
-#define HCI_SRC_HOST_SOLUTION_VOLTAGE_H
+#ifndef HCI_SRC_HOST_LIMIT_VOLTAGE_H
+#define HCI_SRC_HOST_LIMIT_VOLTAGE_H
 
 #include "hci/host/solve/solve.h"
 #include "host/drive/effect_winding.h"

@@ -1,4 +1,4 @@
-#include "host/solution/limit_build.h"
+#include "host/limit/build.h"
 
 #include <string.h>
 

@@ -1,4 +1,4 @@
-#include "host/solution/voltage.h"
+#include "host/limit/voltage.h"
 
 #include <math.h>
 

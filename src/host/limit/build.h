@@ -1,9 +1,9 @@
-/* A convex program of limits and wishes under construction: rows, cones and equations (limit_stage.c). Each
+/* A convex program of limits and wishes under construction: rows, cones and equations (stage.c). Each
  * row has one number for each unknown and the right side behind them. */
-#ifndef HCI_SRC_HOST_SOLUTION_LIMIT_BUILD_H
-#define HCI_SRC_HOST_SOLUTION_LIMIT_BUILD_H
+#ifndef HCI_SRC_HOST_LIMIT_BUILD_H
+#define HCI_SRC_HOST_LIMIT_BUILD_H
 
-#include "host/solution/limit_program.h"
+#include "host/limit/program.h"
 
 /* Unknowns: the coordinates over scale_A; then, of all stages but COPPER, what is minimised over scale_Nm (a
  * share for FIT); of a peak-to-peak also the highest and the lowest torque. Rows are divided by their limits,

@@ -1,8 +1,8 @@
 /* What a stage of solving within limits is made of, and what it gives (theory.md, section 15). */
-#ifndef HCI_SRC_HOST_SOLUTION_LIMIT_PROGRAM_H
-#define HCI_SRC_HOST_SOLUTION_LIMIT_PROGRAM_H
+#ifndef HCI_SRC_HOST_LIMIT_PROGRAM_H
+#define HCI_SRC_HOST_LIMIT_PROGRAM_H
 
-#include "host/solution/limit_points.h"
+#include "host/limit/points.h"
 
 /* The wishes in their order. */
 typedef enum {

@@ -1,5 +1,5 @@
 /* Rows of the torque's orders: U x − h of theory.md, section 4. */
-#include "host/solution/limit_rows.h"
+#include "host/limit/rows.h"
 
 #include <math.h>
 

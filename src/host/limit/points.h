@@ -1,11 +1,11 @@
 /* Where over the angle currents and voltages are limited: rows of phase currents, line voltages and torque,
  * linear in the coordinates of the components, and the angles of their peaks (theory.md, section 15). */
-#ifndef HCI_SRC_HOST_SOLUTION_LIMIT_POINTS_H
-#define HCI_SRC_HOST_SOLUTION_LIMIT_POINTS_H
+#ifndef HCI_SRC_HOST_LIMIT_POINTS_H
+#define HCI_SRC_HOST_LIMIT_POINTS_H
 
+#include "host/limit/bounds.h"
+#include "host/limit/voltage.h"
 #include "host/machine/torque_gradient.h"
-#include "host/solution/bounds.h"
-#include "host/solution/voltage.h"
 #include "host/solve/harmonic_system.h"
 
 typedef enum {

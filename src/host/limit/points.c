@@ -1,4 +1,4 @@
-#include "host/solution/limit_points.h"
+#include "host/limit/points.h"
 
 #include <math.h>
 #include <string.h>

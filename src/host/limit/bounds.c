@@ -1,4 +1,4 @@
-#include "host/solution/bounds.h"
+#include "host/limit/bounds.h"
 
 #include <math.h>
 
