@@ -1,10 +1,13 @@
 #!/bin/sh
 # labels: slow
-# Currents within limits: wider ones make nothing worse; against clarabel, where python3 has it: some seconds a case.
+# Currents within limits: wider ones make nothing worse; against clarabel and SciPy, where python3 has them: some seconds a case.
 
 . "$1/tests/support/common.sh"
 
 python3 "$1/tests/rigs/limits/monotone_check.py" "$hci_solve" "$1" few || fail "a wider limit makes something worse, or costs what is not said"
+if python3 -c 'import numpy, scipy' 2>/dev/null; then
+    python3 "$1/tests/rigs/limits/interior_check.py" "$hci_solve" "$1" --starts 3 --points 4 --envelope 2 || fail "interior magnets: not the optimum of SLSQP"
+fi
 python3 -c 'import clarabel, numpy, scipy' 2>/dev/null || {
     echo "SKIPPED: python3 has no clarabel, numpy and scipy (pip install clarabel numpy scipy)"
     exit 77

@@ -11,14 +11,14 @@
 
 enum { MOST_TRIALS = 20, MOST_FAILURES = 4, MOST_STEPS = 30, SPARE_ORDERS = 8 };
 
-#define FIRST     1.3   /* of the torque of a plain sine at the limit: what is asked for first */
-#define ANOTHER   1.17  /* of it: what is asked for where the solver does not succeed */
-#define NEAR      2e-3  /* share of the torque to which the largest is found */
-#define JUST      0.97  /* share of the ripple allowed from which a torque is the largest */
-#define AIM       0.985 /* share of the ripple allowed that is looked for */
-#define FIRST_CUT 0.9   /* of the largest with any ripple: what is tried first */
-#define EDGE      0.04  /* share of the bracket that each step takes off at least */
-#define NOTHING   1e-3  /* share of the largest torque, or torque constant, that is none */
+#define FIRST     1.3    /* of the torque of a plain sine at the limit: what is asked for first */
+#define ANOTHER   1.17   /* of it: what is asked for where the solver does not succeed */
+#define NEAR      2e-3   /* share of the torque to which the largest is found */
+#define JUST      0.995  /* share of the ripple allowed from which a torque is the largest */
+#define AIM       0.9975 /* share of the ripple allowed that is looked for */
+#define FIRST_CUT 0.9    /* of the largest with any ripple: what is tried first */
+#define EDGE      0.04   /* share of the bracket that each step takes off at least */
+#define NOTHING   1e-3   /* share of the largest torque, or torque constant, that is none */
 
 /* ---- the largest torque ---- */
 
