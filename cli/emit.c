@@ -1,6 +1,7 @@
 #include <string.h>
 
 #include "cli/command/command.h"
+#include "cli/command/reading.h"
 #include "cli/commands.h"
 #include "cli/emit/emit_currents.h"
 #include "cli/emit/emit_drive.h"
@@ -22,6 +23,7 @@ static int emit_table(const cli_arguments *a)
     if (!status && cli_is_wordy()) cli_show_table(&in.request, &result, cli_emit_folder(a));
     if (!status) cli_emit_remark(a, &in.machine);
     if (!status) cli_remark_table(&result);
+    if (!status) cli_remark_period(result.period_turns, in.machine.model.pole_pairs);
     if (!status && cli_emit_wants_json(a))
         status = cli_print_json(hci_emit_json(&in.request, &result), &note);
     cli_emit_currents_release(&in);

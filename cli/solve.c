@@ -6,6 +6,7 @@
 
 #include "cli/command/command.h"
 #include "cli/command/parse.h"
+#include "cli/command/reading.h"
 #include "cli/command/same_file.h"
 #include "cli/commands.h"
 #include "cli/solve/solve_limits.h"
@@ -251,14 +252,7 @@ static void release_inputs(inputs *in)
 
 static void remark_period(const inputs *in, const hci_solution *s)
 {
-    hci_note remark = {{0}};
-    if ((size_t)in->machine.model.pole_pairs % s->period_turns == 0) return;
-    hci_note_set(
-        &remark, HCI_OK,
-        "everything repeats after %zu electrical turns only, which is no part of the mechanical turn of %d; "
-        "a rotor angle cannot drive it",
-        s->period_turns, in->machine.model.pole_pairs);
-    cli_remark(&remark);
+    cli_remark_period(s->period_turns, in->machine.model.pole_pairs);
 }
 
 static void remark_temperature(const cli_arguments *a, const inputs *in)

@@ -2,6 +2,7 @@
 
 #include "cli/command/command.h"
 #include "cli/command/reading.h"
+#include "cli/command/replaced.h"
 #include "cli/command/written.h"
 #include "cli/commands.h"
 #include "cli/terminal/say.h"
@@ -43,6 +44,7 @@ static int run(const cli_arguments *arguments)
     hci_status status = steps(a, t, &note);
     int code;
     if (status && t->is_own) cli_written_remove(t->out); /* so that the same call can be made again */
+    cli_replaced_settle(t->out, t->aside, !status);
     if (!status && cli_is_wordy()) cli_show_tuning(t);
     if (!status && a->given[JSON]) status = cli_print_json(hci_tuning_json(&t->tuning), &note);
     code = status ? cli_fail(status, &note) : t->tuning.good ? 0 : 1;

@@ -1,8 +1,11 @@
+#define _POSIX_C_SOURCE 200809L
+
 #include "cli/command/parse.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "hci/host/base/number.h"
 #include "hci/host/base/spelling.h"
@@ -21,15 +24,33 @@ static bool is_count(const char *text)
     return text && text[0] != '\0' && strspn(text, "0123456789") == strlen(text);
 }
 
+/* "`--limit-current`, `--limit-voltage`": options with the same first part, or letter; false: there are none.
+ */
+static bool say_family(const char *name, const char *const *names, char *text, size_t size)
+{
+    const size_t length = strcspn(name, "-");
+    const bool is_letter = length == 1 && name[1] == '\0';
+    size_t used = 0;
+    if (name[length] == '\0' && !is_letter) return false;
+    for (; *names && used < size; ++names)
+        if (strncmp(*names, name, length) == 0 && (is_letter || (*names)[length] == '-'))
+            used += (size_t)snprintf(text + used, size - used, "%s`--%s`", used > 0 ? ", " : "", *names);
+    return used > 0;
+}
+
 static hci_status unknown_option(const cli_command *command, const char *word, hci_note *note)
 {
     const char *names[CLI_MOST_OPTIONS + 1] = {NULL}, *nearest;
-    char name[32];
+    char name[32], family[240] = "";
     for (int k = 0; k < CLI_MOST_OPTIONS && command->options[k].name; ++k)
         names[k] = command->options[k].name;
     snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 1, "="), word + (word[1] == '-' ? 2 : 1));
     name[strcspn(name, "=")] = '\0';
     nearest = hci_nearest(name, names);
+    if (nearest == NULL && say_family(name, names, family, sizeof family))
+        return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                            "%s: unknown option `%s`; those that begin so are %s; see hci-solve %s --help",
+                            command->name, word, family, command->name);
     return hci_note_set(note, HCI_ERROR_ARGUMENT, "%s: unknown option `%s`;%s%s%s see hci-solve %s --help",
                         command->name, word, nearest ? " did you mean `--" : "", nearest ? nearest : "",
                         nearest ? "`?" : "", command->name);
@@ -113,13 +134,32 @@ static hci_status take_word(const reader *r, cli_arguments *a, hci_note *note)
     return HCI_OK;
 }
 
+/* Two words that are one path with a blank in it, as a shell cuts it without quotes. */
+static hci_status check_blanks(const cli_command *c, const cli_arguments *a, hci_note *note)
+{
+    char path[1024];
+    for (size_t k = 0; k + 1 < a->words; ++k) {
+        const int length = snprintf(path, sizeof path, "%s %s", a->word[k], a->word[k + 1]);
+        if (length < 0 || (size_t)length >= sizeof path || access(path, F_OK) != 0) continue;
+        if (access(a->word[k], F_OK) == 0 && access(a->word[k + 1], F_OK) == 0) continue;
+        return hci_note_set(
+            note, HCI_ERROR_ARGUMENT,
+            "%s: found the words `%s` and `%s`, which are one path with a blank in it; put it "
+            "in quotes: '%s'",
+            c->name, a->word[k], a->word[k + 1], path);
+    }
+    return HCI_OK;
+}
+
 static hci_status check_word_count(const cli_command *c, const cli_arguments *a, hci_note *note)
 {
+    const hci_status status = check_blanks(c, a, note);
+    if (status) return status;
     if (a->words == c->words_needed || (a->words > c->words_needed && c->takes_more_words)) return HCI_OK;
-    return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                        "%s: found %zu word%s, expected %zu%s: %s; see hci-solve %s --help", c->name,
-                        a->words, a->words == 1 ? "" : "s", c->words_needed,
-                        c->takes_more_words ? " or more" : "", c->words, c->name);
+    return hci_note_set(
+        note, HCI_ERROR_ARGUMENT, "%s: found %zu word%s, expected %zu%s: %s;%s see hci-solve %s --help",
+        c->name, a->words, a->words == 1 ? "" : "s", c->words_needed, c->takes_more_words ? " or more" : "",
+        c->words, a->words > c->words_needed ? " a path with a blank in it goes into quotes;" : "", c->name);
 }
 
 static void clear(cli_arguments *a)

@@ -10,7 +10,7 @@
 hci_status cli_reading_take(const cli_arguments *a, bool strict, const char *angle_offset,
                             cli_reading *reading, hci_note *note)
 {
-    char offset[200];
+    char offset[200], from[240];
     hci_status status = HCI_OK;
     memset(reading, 0, sizeof *reading);
     reading->run.inertia_kgm2 = NAN;
@@ -20,7 +20,9 @@ hci_status cli_reading_take(const cli_arguments *a, bool strict, const char *ang
         status = hci_column_names_add(&reading->columns, a->repeated[k], note);
     if (status || angle_offset == NULL) return status;
     snprintf(offset, sizeof offset, "angle_offset=%s", angle_offset);
-    return hci_column_names_add(&reading->columns, offset, note);
+    snprintf(from, sizeof from, "--angle-offset %s", angle_offset);
+    status = hci_column_names_add_text(&reading->columns, offset, from, note);
+    return status == HCI_ERROR_INPUT ? HCI_ERROR_ARGUMENT : status;
 }
 
 void cli_reading_release(cli_reading *reading)
@@ -136,5 +138,17 @@ void cli_remark_counts(const hci_drive_data *drive, const hci_machine_data *mach
 {
     hci_note remark = {{0}};
     hci_drive_remark_counts(drive, machine->model.pole_pairs, highest_order, torque_Nm, mean_Nm, &remark);
+    cli_remark(&remark);
+}
+
+void cli_remark_period(size_t period_turns, int pole_pairs)
+{
+    hci_note remark = {{0}};
+    if (pole_pairs < 1 || period_turns < 1 || (size_t)pole_pairs % period_turns == 0) return;
+    hci_note_set(
+        &remark, HCI_OK,
+        "everything repeats after %zu electrical turns only, which is no part of the mechanical turn of %d; "
+        "a rotor angle cannot drive it",
+        period_turns, pole_pairs);
     cli_remark(&remark);
 }

@@ -50,4 +50,7 @@ void cli_remark_response(const hci_drive_data *drive, const hci_machine_data *ma
 void cli_remark_counts(const hci_drive_data *drive, const hci_machine_data *machine, double highest_order,
                        double torque_Nm, double mean_Nm);
 
+/* Says of currents that repeat after more turns than a rotor angle tells apart. pole_pairs: 0: not known. */
+void cli_remark_period(size_t period_turns, int pole_pairs);
+
 #endif

@@ -60,6 +60,7 @@ int cli_emit_for_drive(const cli_arguments *a)
         cli_remark_counts(&in.drive, &in.machine, result.highest_order, result.torque_high_Nm,
                           result.coarse_mean_Nm);
     if (!status) cli_emit_remark(a, &in.machine);
+    if (!status) cli_remark_period(result.period_turns, in.machine.model.pole_pairs);
     if (!status) cli_emit_remark_zero(a);
     if (!status && cli_emit_wants_json(a))
         status = cli_print_json(hci_emit_loop_json(&in.request, &result), &note);

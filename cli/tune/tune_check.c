@@ -17,28 +17,6 @@
 /* Of a ratio, which units make. */
 #define OF_A_UNIT 0.05
 
-/* What a column of angle, speed or time is in where the change of the angle over time is so many times the
- * speed: a unit that is not the one that it was read in; "": none that is known. */
-static const char *unit_of_ratio(const cli_tuning *t, const hci_check_evidence *e)
-{
-    const struct {
-        double ratio;
-        const char *words;
-    } UNITS[] = {
-        {360.0, ": 360 is degrees in a column that is read in turns; say --column theta_m_deg=COLUMN"},
-        {30.0 / HCI_PI,
-         ": 30/π is rad/s in a column that is read in rpm; say --column speed_rad_per_s=COLUMN"},
-        {1e-3, ": 0.001 is ms in a column that is read in s; say --column time_ms=COLUMN"},
-        {1e-6, ": a millionth is µs in a column that is read in s; say --column time_us=COLUMN"},
-        {1.0 / (60.0 * t->declared.model.pole_pairs),
-         ": 1/60 over the pole pairs is electrical rpm in a column that is read in turn/s; say --column "
-         "speed_e_rpm=COLUMN"}};
-    if (strcmp(e->name, "angle_speed") != 0) return "";
-    for (size_t k = 0; k < sizeof UNITS / sizeof *UNITS; ++k)
-        if (fabs(e->declared / UNITS[k].ratio - 1.0) < OF_A_UNIT) return UNITS[k].words;
-    return "";
-}
-
 static bool is_of_poles(const char *slip)
 {
     return strncmp(slip, "pole", 4) == 0;
@@ -97,9 +75,13 @@ static void say_finding(cli_tuning *t, const hci_check *c, const hci_check_findi
 
 static void say_evidence(cli_tuning *t, const hci_check_evidence *e)
 {
+    char unit[CLI_TUNE_COLUMN_WORDS + 120], words[CLI_TUNE_COLUMN_WORDS] = "";
     if (e->state != HCI_CHECK_UNMENDED) return;
+    unit[0] = '\0';
+    if (strcmp(e->name, "angle_speed") == 0) cli_tune_say_unit_of_ratio(t, e->declared, words);
+    if (words[0]) snprintf(unit, sizeof unit, ": %s", words);
     hci_tuning_say(&t->tuning, HCI_TUNING_READ, "  not understood: %s is %.4g, expected %s%.4g%s", e->words,
-                   e->declared, e->at_most ? "at most " : "", e->expected, unit_of_ratio(t, e));
+                   e->declared, e->at_most ? "at most " : "", e->expected, unit);
 }
 
 static void say_check(cli_tuning *t, const hci_check *c)

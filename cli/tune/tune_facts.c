@@ -1,8 +1,10 @@
 #include "cli/tune/tune_facts.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "cli/tune/tune_current.h"
+#include "cli/tune/tune_options.h"
 #include "cli/tune/tune_waveforms.h"
 
 /* Of the data sheet, that a measured back-EMF may be off and not be a contradiction. */
@@ -47,6 +49,23 @@ bool cli_tune_is_uncounted(const cli_tuning *t)
     return t->is_solved && t->is_own && !t->counts_pole_pairs;
 }
 
+const char *cli_tune_order_words(const cli_tuning *t, double order, char text[CLI_TUNE_ORDER])
+{
+    const int p = t->declared.model.pole_pairs;
+    const double turns = order * p, whole = round(turns);
+    const bool is_fraction = p > 1 && fabs(order - round(order)) > HCI_ORDER_TOLERANCE && whole >= 1.0 &&
+                             whole < 1e6 && fabs(turns - whole) < p * HCI_ORDER_TOLERANCE;
+    int above = (int)whole, below = p;
+    for (int k = 2; is_fraction && k <= below; ++k)
+        while (above % k == 0 && below % k == 0)
+            above /= k, below /= k;
+    if (is_fraction)
+        snprintf(text, CLI_TUNE_ORDER, "%d/%d", above, below);
+    else
+        snprintf(text, CLI_TUNE_ORDER, "%.5g", order);
+    return text;
+}
+
 /* Of two mean speeds, in one direction, that tell nothing that one does not. */
 #define ONE_SPEED 1.2
 
@@ -83,6 +102,13 @@ const char *cli_tune_torque_like(const cli_tuning *t)
 {
     for (size_t k = 0; k < t->runs.count; ++k)
         if (t->runs.run[k].torque_like[0]) return t->runs.run[k].torque_like;
+    return NULL;
+}
+
+const char *cli_tune_current_like(const cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count; ++k)
+        if (t->runs.run[k].current_like[0]) return t->runs.run[k].current_like;
     return NULL;
 }
 
@@ -155,6 +181,31 @@ bool cli_tune_is_far_beyond(const cli_tuning *t)
 {
     const double most_A = cli_tune_largest_recorded_A(t);
     return t->is_solved && most_A > 0.0 && t->solution.peak_phase_current_A > FAR_BEYOND * most_A;
+}
+
+bool cli_tune_is_below_idle(const cli_tuning *t)
+{
+    bool is_idle = t->runs.count > 0;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        is_idle = is_idle && r->torque_source == HCI_TORQUE_HOLDING && !hci_run_is_loaded(r, r->pole_pairs);
+    }
+    return t->is_solved && is_idle && t->arguments->given[TUNE_TORQUE] && t->mean_Nm > 0.0 &&
+           t->solution.plain_amplitude_A < cli_tune_largest_recorded_A(t);
+}
+
+const char *cli_tune_constant_option(const cli_tuning *t)
+{
+    static const struct {
+        int key;
+        const char *name;
+    } OPTIONS[] = {{TUNE_KV, "--kv"},
+                   {TUNE_VOLT, "--volt-per-krpm"},
+                   {TUNE_CONSTANT, "--torque-constant"},
+                   {TUNE_FLUX, "--flux"}};
+    for (size_t k = 0; k < sizeof OPTIONS / sizeof *OPTIONS && t->is_own; ++k)
+        if (t->arguments->given[OPTIONS[k].key]) return OPTIONS[k].name;
+    return "the back-EMF of the machine";
 }
 
 bool cli_tune_is_of_no_use(const cli_tuning *t)

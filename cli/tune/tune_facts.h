@@ -27,8 +27,21 @@ bool cli_tune_hangs_on_lag(const cli_tuning *tune);
 /* Whether no log has a torque of any kind. */
 bool cli_tune_lacks_torque(const cli_tuning *tune);
 
-/* A column that was not read and may be the torque; NULL: none. */
+/* A column that was not read and may be the torque, or i_q where no current was read, as --column takes it:
+ * "torque_Nm=COLUMN"; NULL: none. */
 const char *cli_tune_torque_like(const cli_tuning *tune);
+const char *cli_tune_current_like(const cli_tuning *tune);
+
+/* Whether the torque that is asked for takes less current, by the constant of the sheet, than the shaft took
+ * that was turned without a load. */
+bool cli_tune_is_below_idle(const cli_tuning *tune);
+
+/* What said that constant: "--kv", or the back-EMF of a machine. */
+const char *cli_tune_constant_option(const cli_tuning *tune);
+
+/* An electrical order as people say it: 12, or 12/7 of 7 pole pairs. */
+enum { CLI_TUNE_ORDER = 24 };
+const char *cli_tune_order_words(const cli_tuning *tune, double order, char text[CLI_TUNE_ORDER]);
 
 /* The largest ripple that is left unexplained in a recording, rms; 0 where all are near their noise. */
 double cli_tune_unexplained_Nm(const cli_tuning *tune);

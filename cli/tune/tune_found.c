@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "cli/tune/tune_facts.h"
+
 /* ---- effects ---- */
 
 /* The place of "sine" or "cosine" among the values of an effect, of an order; -1: none. */
@@ -38,6 +40,7 @@ static void say_orders(cli_tuning *t, hci_tuning_part part, const hci_effect *e)
     double above = HUGE_VAL;
     for (size_t shown = 0; shown < CLI_TUNE_ORDERS_SAID; ++shown) {
         double most = 0.0, error = 0.0, order = 0.0;
+        char name[CLI_TUNE_ORDER];
         for (size_t k = 0; k < e->count; ++k) {
             double std_error = 0.0;
             const double amplitude = amplitude_of(e, k, &std_error);
@@ -45,7 +48,8 @@ static void say_orders(cli_tuning *t, hci_tuning_part part, const hci_effect *e)
                 most = amplitude, error = std_error, order = e->term[k].order;
         }
         if (!(most > 0.0)) return;
-        hci_tuning_say(&t->tuning, part, "  order %.5g: %.4g ± %.1g %s", order, most, error,
+        hci_tuning_say(&t->tuning, part, "  order %s: %.4g ± %.1g %s", cli_tune_order_words(t, order, name),
+                       most, error,
                        strcmp(e->type->parameter[0].unit, "Nm") == 0 ? "N·m" : e->type->parameter[0].unit);
         above = most;
     }
@@ -188,17 +192,18 @@ static void say_once_a_turn(cli_tuning *t, const order_sum *sum, size_t count)
         most_Nm = fmax(most_Nm, hypot(sum[k].sine_Nm, sum[k].cosine_Nm));
     for (size_t k = 0; k < count; ++k) {
         const double amplitude_Nm = hypot(sum[k].sine_Nm, sum[k].cosine_Nm);
+        char words[CLI_TUNE_ORDER];
         if (sum[k].order >= 1.0 || sum[k].order > MOST_A_TURN * turn + HCI_ORDER_TOLERANCE ||
             amplitude_Nm < SURE * sum[k].std_error_Nm)
             continue;
         if (amplitude_Nm > MUCH * most_Nm) t->once_a_turn_Nm = fmax(t->once_a_turn_Nm, amplitude_Nm);
         hci_tuning_say(
             &t->tuning, HCI_TUNING_UNKNOWN,
-            "Whether the %.3g N·m of order %.5g, %.3g times a mechanical turn, are of the motor: a "
+            "Whether the %.3g N·m of order %s, %.3g times a mechanical turn, are of the motor: a "
             "weight on an arm, a crank, or what is out of balance on a shaft that does not stand "
             "upright, makes them as well. The table takes them away as they are; without that load "
             "it would add them. Record again with nothing on the shaft, or with the shaft upright.",
-            amplitude_Nm, sum[k].order, sum[k].order / turn);
+            amplitude_Nm, cli_tune_order_words(t, sum[k].order, words), sum[k].order / turn);
     }
 }
 
@@ -287,9 +292,8 @@ static void say_cogging(cli_tuning *t)
     judge_one_speed(t, sum, count);
     if (t->cogging.kept == 0) return;
     hci_tuning_say(&t->tuning, HCI_TUNING_FOUND,
-                   "cogging torque and what else follows the angle alone, %zu "
-                   "orders, the largest:",
-                   count);
+                   "cogging torque and what else follows the angle alone, %zu order%s, the largest:", count,
+                   count == 1 ? "" : "s");
     for (size_t shown = 0; shown < CLI_TUNE_ORDERS_SAID && shown < count; ++shown) {
         order_sum *most = &sum[shown];
         for (size_t k = shown; k < count; ++k)
@@ -298,8 +302,10 @@ static void say_cogging(cli_tuning *t)
         const order_sum o = *most;
         *most = sum[shown];
         sum[shown] = o;
-        hci_tuning_say(&t->tuning, HCI_TUNING_FOUND, "  order %.5g: %.4g ± %.1g N·m", o.order,
-                       hypot(o.sine_Nm, o.cosine_Nm), o.std_error_Nm);
+        char words[CLI_TUNE_ORDER];
+        hci_tuning_say(&t->tuning, HCI_TUNING_FOUND, "  order %s: %.4g ± %.1g N·m",
+                       cli_tune_order_words(t, o.order, words), hypot(o.sine_Nm, o.cosine_Nm),
+                       o.std_error_Nm);
     }
     say_offset(t, sum, count);
     size_t from = 0;

@@ -75,8 +75,8 @@ static void say_lack_of_torque(const cli_tuning *t, char *text, size_t size)
         snprintf(
             text, size,
             "No log has a torque, so the table takes no cogging torque away; if the column `%s` is one, add "
-            "--column 'torque_Nm=%s'",
-            column, column);
+            "--column '%s'",
+            strchr(column, '=') + 1, column);
     else
         snprintf(text, size, "No log has a torque, so the table takes no cogging torque away");
 }
@@ -172,25 +172,36 @@ static void append_of_table(cli_tuning *t)
                t->solution.peak_phase_current_A,
                t->solution.peak_phase_current_A / cli_tune_largest_recorded_A(t),
                cli_tune_largest_recorded_A(t));
+    if (cli_tune_is_below_idle(t))
+        append(t,
+               "; by this Kv %.3g N·m take %.3g A, and the shaft without a load took up to %.3g A: is %s the "
+               "right number in its unit, and the torque in N·m?",
+               t->mean_Nm, t->solution.plain_amplitude_A, cli_tune_largest_recorded_A(t),
+               cli_tune_constant_option(t));
 }
 
 /* What the recordings do not tell of the torque. */
 static void append_of_torque(cli_tuning *t)
 {
+    char order[CLI_TUNE_ORDER];
     if (cli_tune_reach_of_slopes(t) > 0.0)
         append(t, "; these recordings do not show cogging torque above order %.3g",
                cli_tune_reach_of_slopes(t));
-    if (cli_tune_is_short(t) && t->is_solved)
-        append(t, "; the logs cover %.2g of a turn, and at least a whole one is needed to tell orders apart",
-               t->turns);
+    if (cli_tune_is_short(t) && t->is_solved) {
+        char turns[CLI_TUNE_COLUMN_WORDS];
+        cli_tune_say_turns(t, turns);
+        append(t,
+               "; the logs cover %.2g of a turn, and at least a whole one is needed to tell orders apart%s",
+               t->turns, turns);
+    }
     if (cli_tune_is_coarse(t) && t->is_solved && !(cli_tune_reach_of_slopes(t) > 0.0))
         append(t, "; orders above %.3g were not looked at, since the samples lie too far apart",
                t->highest_order);
     if (cli_tune_hangs_on_lag(t))
         append(t, "; unless the torque sensor reads late, which one speed does not tell");
     if (t->mains_Hz > 0.0 && t->is_solved)
-        append(t, "; order %.5g is %.0f Hz at this one speed, as hum of the mains is: another speed tells",
-               t->mains_order, t->mains_Hz);
+        append(t, "; order %s is %.0f Hz at this one speed, as hum of the mains is: another speed tells",
+               cli_tune_order_words(t, t->mains_order, order), t->mains_Hz);
     else if (t->fast_Hz > 0.0 && t->is_solved && t->solution.expected.state != HCI_RIPPLE_KNOWN)
         append(t,
                "; at this one speed the ripple has %.0f Hz, of which a slower torque sensor or filter shows "
@@ -201,6 +212,7 @@ static void append_of_torque(cli_tuning *t)
 /* What they do not tell of the machine, and what of them was not used. */
 static void append_of_machine(cli_tuning *t)
 {
+    char order[CLI_TUNE_ORDER];
     if (cli_tune_is_uncounted(t))
         append(t, "; that there are %d pole pairs is taken on trust, since nothing in these logs counts them",
                t->declared.model.pole_pairs);
@@ -213,10 +225,10 @@ static void append_of_machine(cli_tuning *t)
         append(t, "; check does not understand all that the logs say");
     if (t->stranger_order > 0.0)
         append(t,
-               "; the largest order found, %.5g, is none that %.0f slots and %d poles make: %.5g and its "
+               "; the largest order found, %s, is none that %.0f slots and %d poles make: %.5g and its "
                "multiples",
-               t->stranger_order, t->declared.slots, 2 * t->declared.model.pole_pairs,
-               cli_tune_order_of_slots(t));
+               cli_tune_order_words(t, t->stranger_order, order), t->declared.slots,
+               2 * t->declared.model.pole_pairs, cli_tune_order_of_slots(t));
     if (cli_tune_misses_slots(t))
         append(t, "; order %.5g, which slots and poles make, was not looked at", cli_tune_order_of_slots(t));
 }
@@ -261,6 +273,10 @@ static const char *why_untold(const cli_tuning *t)
         return "The logs cover not even one electrical turn, which tells no order: at least one whole "
                "mechanical turn is needed, better several";
     if (t->needs_inertia) return "The inertia may answer what the current does not";
+    if (cli_tune_is_one_way(t))
+        return "The shaft turns in one direction alone, in which the current does not tell friction from "
+               "cogging torque unless control turned it evenly (say --holding if it did; a turn forward and "
+               "one back tell it)";
     return "The logs tell neither cogging torque nor back-EMF";
 }
 
@@ -291,16 +307,46 @@ static void say_jumps(cli_tuning *t)
         degrees, t->declared.model.pole_pairs);
 }
 
+/* Where one of angle and speed is electrical, the ratio of their ways is that of two numbers of pole pairs.
+ */
+static int pole_pairs_of_ratio(const cli_tuning *t)
+{
+    const hci_run *r = &t->runs.run[t->not_followed];
+    const double ratio = t->angle_to_speed;
+    if (r->is_electrical == r->speed_is_electrical) return 0;
+    const double p = r->pole_pairs * (r->is_electrical ? ratio : 1.0 / ratio), whole = round(p);
+    return whole >= 1.0 && whole < 1000.0 && fabs(p - whole) < 0.03 * whole ? (int)whole : 0;
+}
+
+/* "pole pairs: 7 and not 14, which are the poles?" */
+static void say_pole_pairs(const cli_tuning *t, int pairs, char *words, size_t size)
+{
+    const int said = t->declared.model.pole_pairs;
+    char remedy[64] = "in machine.csv";
+    if (t->is_own) snprintf(remedy, sizeof remedy, "--pole-pairs %d", pairs);
+    snprintf(words, size, "%s: %d pole pairs would fit, and not %d%s; or one of a shaft behind a gear?",
+             remedy, pairs, said,
+             said == 2 * pairs   ? ", which is the number of poles, two for a pair"
+             : 2 * said == pairs ? ", which is half of them"
+                                 : "");
+}
+
 /* A whole number of turns, or one over it, is a gear's. */
 static void say_elsewhere(cli_tuning *t)
 {
     const double ratio = t->angle_to_speed, gear = fmax(ratio, 1.0 / ratio);
-    char words[96] = "two of them exchanged?";
+    const int pairs = ratio > 0.0 ? pole_pairs_of_ratio(t) : 0;
+    const hci_run *r = &t->runs.run[t->not_followed];
+    char unit[CLI_TUNE_COLUMN_WORDS], words[CLI_TUNE_COLUMN_WORDS] = "two of them exchanged?";
     if (ratio > 1000.0)
-        snprintf(words, sizeof words, "counts? --column theta_m=COLUMN/COUNTS_OF_A_TURN, or theta_e");
+        snprintf(words, sizeof words, "counts? --column 'theta_m=%.90s/COUNTS_OF_A_TURN', or theta_e",
+                 r->angle_column[0] ? r->angle_column : "COLUMN");
     if (ratio > 0.0 && gear > 1.5 && fabs(gear - round(gear)) < 0.03 * gear && gear < 1000.0)
         snprintf(words, sizeof words, "one of a shaft behind a gear of %.0f, or an electrical one?",
                  round(gear));
+    if (pairs > 0) say_pole_pairs(t, pairs, words, sizeof words);
+    cli_tune_say_unit_of_ratio(t, ratio, unit);
+    if (unit[0]) snprintf(words, sizeof words, "%s", unit);
     snprintf(
         t->tuning.heading, sizeof t->tuning.heading,
         "The angle does not go where the speed leads, but %.3g times as far: one of the two columns is of "
@@ -334,7 +380,12 @@ static void say_why_not_solved(cli_tuning *t)
         snprintf(r->heading, sizeof r->heading, "%s", t->slip);
     if (column)
         snprintf(r->heading + strlen(r->heading), sizeof r->heading - strlen(r->heading),
-                 "; if the column `%s` is a torque, add --column 'torque_Nm=%s'", column, column);
+                 "; if the column `%s` is a torque, add --column '%s'", strchr(column, '=') + 1, column);
+    column = !t->has_slip && !column ? cli_tune_current_like(t) : NULL;
+    if (column)
+        snprintf(r->heading + strlen(r->heading), sizeof r->heading - strlen(r->heading),
+                 "; no current was read: if the column `%s` is i_q, add --column '%s'",
+                 strchr(column, '=') + 1, column);
 }
 
 void cli_tune_set_heading(cli_tuning *t)

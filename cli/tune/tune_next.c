@@ -123,7 +123,7 @@ static void say_next_turn(cli_tuning *t)
     else if (t->is_not_followed)
         hci_tuning_say(r, HCI_TUNING_NEXT,
                        "Look which columns were read as angle, speed and current, and say it by --column "
-                       "theta_m_rad=COLUMN, speed_rad_per_s=COLUMN and iq_A=COLUMN, in their units.");
+                       "theta_m_deg=COLUMN, speed_rpm=COLUMN and iq_A=COLUMN, in their units.");
     else if (t->inertia_share > 0.0)
         hci_tuning_say(r, HCI_TUNING_NEXT,
                        "Give --inertia in kg·m², or leave it out: turns forward and back tell whether it "

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/command/replaced.h"
 #include "cli/terminal/progress.h"
 #include "cli/tune/tune_commands.h"
 #include "cli/tune/tune_cover.h"
@@ -64,12 +65,20 @@ static hci_status check_words(const cli_arguments *a, hci_note *note)
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
                             "tune: found %zu words, expected one machine beside --runs LIST", a->words);
     for (size_t k = 0; k < a->words; ++k)
+        if (strcmp(a->word[k], "-") == 0)
+            return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                                "tune: found `-`, expected a file: a log is read several times, which the "
+                                "standard input is not; save it as a CSV file and give that");
+    for (size_t k = 0; k < a->words; ++k)
         for (size_t other = 0; other < k; ++other)
             if (strcmp(a->word[k], a->word[other]) == 0)
                 return hci_note_set(note, HCI_ERROR_ARGUMENT,
                                     "tune: found the log %s twice, expected each one once; leave one out",
                                     a->word[k]);
-    return a->given[TUNE_NAME] ? hci_emit_check_name(a->value[TUNE_NAME], note) : HCI_OK;
+    cli_reading reading;
+    const hci_status status = cli_reading_take(a, a->given[STRICT], a->value[ANGLE_OFFSET], &reading, note);
+    cli_reading_release(&reading);
+    return status || !a->given[TUNE_NAME] ? status : hci_emit_check_name(a->value[TUNE_NAME], note);
 }
 
 hci_status cli_tune_begin(const cli_arguments *a, cli_tuning *t, hci_note *note)
@@ -82,6 +91,8 @@ hci_status cli_tune_begin(const cli_arguments *a, cli_tuning *t, hci_note *note)
     cli_tune_note(t, "#!/bin/sh\n# What tune did, step by step, from the folder where it was called: sh "
                      "commands.sh NEW_FOLDER\n"
                      "set -eu\nOUT=${1:?give a new folder}\nmkdir -p \"$OUT\"\n");
+    if (!a->given[TUNE_RUNS]) status = cli_replaced_set_aside(t->out, t->aside, note);
+    if (status) return status;
     if (a->given[TUNE_RUNS]) {
         snprintf(t->machine, sizeof t->machine, "%s", a->word[0]);
         snprintf(t->list, sizeof t->list, "%s", a->value[TUNE_RUNS]);
@@ -114,8 +125,8 @@ static void cover_words(const hci_run *r, char *text, size_t size)
     const cli_tune_cover x = cli_tune_cover_of(r);
     text[0] = '\0';
     if (!(x.samples_a_turn > 0.0)) return;
-    snprintf(text, size, ", %.3g turns, %.3g samples a turn, which tell orders up to %.3g", x.turns,
-             x.samples_a_turn, x.highest_order);
+    snprintf(text, size, ", %.3g turns, %.*f samples a turn, which tell orders up to %.3g", x.turns,
+             x.samples_a_turn < 10.0 ? 1 : 0, x.samples_a_turn, x.highest_order);
 }
 
 /* "log.csv: 9000 samples, 12.3 s, 10 turns, ...; torque as measured; currents up to 3.2 A" */

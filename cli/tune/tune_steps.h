@@ -32,6 +32,7 @@ typedef struct {
     char machine[CLI_TUNE_PATH]; /* folder of the machine that recordings are read with */
     char list[CLI_TUNE_PATH];    /* of the recordings */
     bool is_own;                 /* the machine was made here */
+    char aside[CLI_TUNE_PATH];   /* where the results of an earlier call are until these are written; "" */
     cli_reading reading;
     hci_machine_data declared;
     hci_effects_data effects;
@@ -59,6 +60,7 @@ typedef struct {
     double angle_to_speed; /* is_not_followed: the way of the angle to that of the speed */
     bool slip_is_of_poles; /* has_slip: of the number of pole pairs */
     bool is_not_followed;  /* the angle of a recording does not go where its speed leads */
+    size_t not_followed;   /* is_not_followed: which recording's */
     double stranger_order; /* the largest of the cogging torque found, where slots and poles make another one
                             * that was not found; 0: none */
     double mains_order,

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/tune/tune_cover.h"
 #include "cli/tune/tune_current.h"
 #include "hci/math/harmonic.h"
 
@@ -36,6 +37,111 @@ hci_status cli_tune_claim_folder(const char *folder, hci_note *note)
                              folder, at->d_name);
     closedir(open);
     return status;
+}
+
+/* ---- columns in another unit ---- */
+
+void cli_tune_say_column(const char *quantity, const char *column, char text[CLI_TUNE_COLUMN_WORDS])
+{
+    snprintf(text, CLI_TUNE_COLUMN_WORDS, "--column '%s=%s'", quantity, column[0] ? column : "COLUMN");
+}
+
+const char *cli_tune_unit_of_angle(const hci_run *r)
+{
+    static const struct {
+        double rad;
+        const char *name;
+    } UNITS[] = {{1.0, "rad"}, {HCI_PI / 180.0, "deg"}, {2.0 * HCI_PI, "turn"}};
+    for (size_t k = 0; k < sizeof UNITS / sizeof *UNITS; ++k)
+        if (fabs(r->angle_unit_rad / UNITS[k].rad - 1.0) < 1e-9) return UNITS[k].name;
+    return NULL;
+}
+
+/* ---- what a ratio says ---- */
+
+#define OF_A_UNIT 0.02 /* of a ratio, which units make */
+
+/* The column of angle, speed or time in the first recording that has one, as hci_run keeps it; read_as: out,
+ * a 1 of it in rad or rad/s, 0: not told. "": none. */
+static const char *header_of(const cli_tuning *t, char of, double *read_as)
+{
+    *read_as = 0.0;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        const char *header = of == 'a' ? r->angle_column : of == 's' ? r->speed_column : r->time_column;
+        if (!header[0]) continue;
+        *read_as = of == 'a' ? r->angle_unit_rad : of == 's' ? r->speed_unit_rad_per_s : 0.0;
+        return header;
+    }
+    return "";
+}
+
+#define TURN (2.0 * HCI_PI)
+#define RPM  (HCI_PI / 30.0)
+
+void cli_tune_say_unit_of_ratio(const cli_tuning *t, double ratio, char text[CLI_TUNE_COLUMN_WORDS])
+{
+    const struct {
+        double ratio, read_as;
+        const char *words, *quantity;
+        char of;
+    } UNITS[] = {
+        {360.0, TURN, "360 is degrees in a column that is read in turns", "theta_m_deg", 'a'},
+        {180.0 / HCI_PI, 1.0, "180/π is degrees in a column that is read in rad", "theta_m_deg", 'a'},
+        {0.5 / HCI_PI, 1.0, "1/2π is turns in a column that is read in rad", "theta_m_turn", 'a'},
+        {30.0 / HCI_PI, RPM, "30/π is rad/s in a column that is read in rpm", "speed_rad_per_s", 's'},
+        {HCI_PI / 30.0, 1.0, "π/30 is rpm in a column that is read in rad/s", "speed_rpm", 's'},
+        {TURN, 1.0, "2π is turn/s in a column that is read in rad/s", "speed_turn_per_s", 's'},
+        {1e-3, 0.0, "0.001 is ms in a column that is read in s", "time_ms", 't'},
+        {1e-6, 0.0, "a millionth is µs in a column that is read in s", "time_us", 't'},
+        {1e3, 0.0, "1000 is s in a column that is read in ms", "time_s", 't'},
+        {1e6, 0.0, "a million is s in a column that is read in µs", "time_s", 't'},
+        {1.0 / (60.0 * t->declared.model.pole_pairs), TURN,
+         "1/60 over the pole pairs is electrical rpm in a column that is read in turn/s", "speed_e_rpm",
+         's'}};
+    char column[CLI_TUNE_COLUMN_WORDS];
+    text[0] = '\0';
+    for (size_t k = 0; k < sizeof UNITS / sizeof *UNITS && text[0] == '\0'; ++k) {
+        double read_as;
+        const char *header = header_of(t, UNITS[k].of, &read_as);
+        if (fabs(ratio / UNITS[k].ratio - 1.0) >= OF_A_UNIT) continue;
+        if (read_as > 0.0 && fabs(read_as / UNITS[k].read_as - 1.0) > 1e-9) continue;
+        cli_tune_say_column(UNITS[k].quantity, header, column);
+        snprintf(text, CLI_TUNE_COLUMN_WORDS, "%s; say %.200s", UNITS[k].words, column);
+    }
+}
+
+/* ---- turns ---- */
+
+/* A speed that goes with an angle in turns is in turns, too: one that was recorded in another unit speaks
+ * against it. */
+static bool may_be_in_turns(const hci_run *r)
+{
+    const bool has_speed = r->speed_unit_rad_per_s > 0.0 && r->speed_window == 0;
+    return r->angle_unit_rad == 1.0 && !r->is_electrical && r->angle_column[0] &&
+           (!has_speed || r->speed_unit_rad_per_s == 1.0);
+}
+
+/* Of the number of turns, that whole ones are off. */
+#define NEAR_WHOLE 0.01
+
+void cli_tune_say_turns(const cli_tuning *t, char text[CLI_TUNE_COLUMN_WORDS])
+{
+    char column[CLI_TUNE_COLUMN_WORDS];
+    text[0] = '\0';
+    for (size_t k = 0; k < t->runs.count && text[0] == '\0'; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        const double turns = cli_tune_cover_of(r).turns * 2.0 * HCI_PI, whole = round(turns);
+        if (!may_be_in_turns(r) || whole < 1.0 || fabs(turns - whole) > NEAR_WHOLE * whole) continue;
+        char speed[CLI_TUNE_COLUMN_WORDS] = "";
+        cli_tune_say_column("theta_m_turn", r->angle_column, column);
+        if (r->speed_unit_rad_per_s > 0.0) cli_tune_say_column("speed_turn_per_s", r->speed_column, speed);
+        snprintf(text, CLI_TUNE_COLUMN_WORDS,
+                 ", or it is %.0f whole turn%s and `%.90s` is in turns and not in rad: %.120s %.120s", whole,
+                 whole > 1.0 ? "s" : "", r->angle_column, column, speed);
+        while (text[0] && text[strlen(text) - 1] == ' ')
+            text[strlen(text) - 1] = '\0';
+    }
 }
 
 /* ---- an angle that jumps ---- */
@@ -98,7 +204,9 @@ void cli_tune_suspect(cli_tuning *t)
     t->is_not_followed = false;
     for (size_t k = 0; k < t->runs.count; ++k) {
         judge_jumps(t, &t->runs.run[k]);
-        if (!t->is_not_followed) t->is_not_followed = goes_elsewhere(&t->runs.run[k], &t->angle_to_speed);
+        if (t->is_not_followed) continue;
+        t->is_not_followed = goes_elsewhere(&t->runs.run[k], &t->angle_to_speed);
+        t->not_followed = k;
     }
 }
 
@@ -175,28 +283,93 @@ static double speed_of_current_rpm(const hci_run *r)
     return current > 0.0 ? sum * 30.0 / HCI_PI : 0.0;
 }
 
+/* The fastest of such recordings, and its speed; NULL: there is none. */
+static const hci_run *fastest(const cli_tuning *t, double *rpm)
+{
+    const hci_run *fast = NULL;
+    *rpm = 0.0;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const double is_rpm = speed_of_current_rpm(&t->runs.run[k]);
+        if (!(is_rpm > *rpm)) continue;
+        fast = &t->runs.run[k];
+        *rpm = is_rpm;
+    }
+    return fast;
+}
+
+/* " in degrees (5.7 rpm; --column 'theta_m_deg=angle')," of an angle that was read in rad. */
+static void say_degrees(const hci_run *r, double rpm, char *text, size_t size)
+{
+    char column[CLI_TUNE_COLUMN_WORDS];
+    rpm *= HCI_PI / 180.0;
+    text[0] = '\0';
+    if (r->angle_unit_rad != 1.0 || !(rpm < SLOW_rpm && rpm > LEAST_rpm)) return;
+    cli_tune_say_column(r->is_electrical ? "theta_e_deg" : "theta_m_deg", r->angle_column, column);
+    snprintf(text, size, " in degrees (%.3g rpm; %s),", rpm, column);
+}
+
+static void say_electrical(const hci_run *r, double rpm, char *text, size_t size)
+{
+    const char *unit = cli_tune_unit_of_angle(r);
+    char quantity[32], column[CLI_TUNE_COLUMN_WORDS];
+    text[0] = '\0';
+    if (r->is_electrical || !unit || !(rpm / r->pole_pairs < SLOW_rpm)) return;
+    snprintf(quantity, sizeof quantity, "theta_e_%s", unit);
+    cli_tune_say_column(quantity, r->angle_column, column);
+    snprintf(text, size, " electrical (%.3g rpm; %s),", rpm / r->pole_pairs, column);
+}
+
+static void say_counts(const hci_run *r, double rpm, char *text, size_t size)
+{
+    const bool is_fast = r->angle_unit_rad == 1.0 && rpm > COUNTS_rpm;
+    text[0] = '\0';
+    if (r->is_electrical || !cli_tune_unit_of_angle(r) || !(r->angle_is_counted || is_fast)) return;
+    snprintf(text, size, " in counts of an encoder (--column 'theta_m=%.90s/COUNTS_OF_A_TURN'),",
+             r->angle_column[0] ? r->angle_column : "COLUMN");
+}
+
 bool cli_tune_say_fast(const cli_tuning *t, char *text, size_t size)
 {
-    const double p = t->declared.model.pole_pairs;
-    double rpm = 0.0;
-    char degrees[80] = "", electrical[80] = "";
-    for (size_t k = 0; k < t->runs.count; ++k)
-        rpm = fmax(rpm, speed_of_current_rpm(&t->runs.run[k]));
-    if (!(rpm > SLOW_rpm)) return false;
-    if (rpm * HCI_PI / 180.0 < SLOW_rpm && rpm * HCI_PI / 180.0 > LEAST_rpm)
-        snprintf(degrees, sizeof degrees, " in degrees (%.3g rpm; --column theta_m_deg=COLUMN),",
-                 rpm * HCI_PI / 180.0);
-    if (rpm / p < SLOW_rpm)
-        snprintf(electrical, sizeof electrical, " electrical (%.3g rpm; --column theta_e_rad=COLUMN),",
-                 rpm / p);
+    double rpm;
+    char degrees[CLI_TUNE_COLUMN_WORDS + 40], electrical[CLI_TUNE_COLUMN_WORDS + 40],
+        counts[CLI_TUNE_COLUMN_WORDS];
+    const hci_run *r = fastest(t, &rpm);
+    if (!r || !(rpm > SLOW_rpm)) return false;
+    say_degrees(r, rpm, degrees, sizeof degrees);
+    say_electrical(r, rpm, electrical, sizeof electrical);
+    say_counts(r, rpm, counts, sizeof counts);
+    const bool is_any = degrees[0] || electrical[0] || counts[0];
     snprintf(
         text, size,
-        "By its angle the shaft turns at %.3g rpm, and without a torque sensor the current tells cogging "
+        "By its angle the shaft turns at %.*f rpm, and without a torque sensor the current tells cogging "
         "torque only of a shaft that is turned at %.0f rpm or less, so nothing was solved; if it was, the "
-        "angle is%s%s %sof a shaft behind a gear",
-        rpm, SLOW_rpm, degrees, electrical,
-        rpm > COUNTS_rpm ? "in counts of an encoder (--column theta_m=COLUMN/COUNTS_OF_A_TURN), or " : "or ");
+        "angle is%s%s%s%s of a shaft behind a gear",
+        rpm < 100.0 ? 1 : 0, rpm, SLOW_rpm, degrees, electrical, counts, is_any ? " or" : "");
     return true;
+}
+
+/* ---- a slow turn that does not turn back ---- */
+
+#define OTHER_WAY 0.05 /* of the samples */
+
+static bool is_one_way(const hci_run *r)
+{
+    size_t forward = 0, back = 0;
+    const double rpm = speed_of_current_rpm(r);
+    if (!(rpm > 0.0) || rpm > SLOW_rpm) return false;
+    for (size_t k = 0; k < r->count; ++k) {
+        forward += r->speed_rad_per_s[k] > 0.0;
+        back += r->speed_rad_per_s[k] < 0.0;
+    }
+    return (double)(forward < back ? forward : back) < OTHER_WAY * (double)r->count;
+}
+
+bool cli_tune_is_one_way(const cli_tuning *t)
+{
+    bool is_any = false;
+    for (size_t k = 0; k < t->runs.count; ++k)
+        is_any = is_any || is_one_way(&t->runs.run[k]);
+    return is_any;
 }
 
 size_t cli_tune_clipped(const cli_tuning *t)

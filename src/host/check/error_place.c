@@ -294,11 +294,22 @@ static void say_column(const check_error *error, const check_data *data, const c
 {
     char *text = finding->should_be;
     const size_t size = sizeof finding->should_be;
+    const check_place *of_rotor = place_of(data, CHECK_AT_THETA_M);
     if (error->aspect == CHECK_OF_CURRENT_UNIT)
         snprintf(text, size, "in mA: --column '%s_mA=%.60s', and so of each current", current_of(data, place),
                  place->column);
-    if (error->aspect == CHECK_OF_TORQUE_UNIT || error->aspect == CHECK_OF_TIME)
+    if (error->aspect == CHECK_OF_THETA_UNIT)
+        snprintf(text, size, "in degrees: --column '%s_deg=%.60s'",
+                 of_rotor && strcmp(place->column, of_rotor->column) == 0 ? "theta_m" : "theta_e",
+                 place->column);
+    if (error->aspect == CHECK_OF_THETA && !is_geared(error)) /* in the unit of its header */
+        snprintf(text, size, "%.7s: --column '%.7s=%.60s'", error->should_be, error->should_be,
+                 place->column);
+    if (error->aspect == CHECK_OF_TORQUE_UNIT || error->aspect == CHECK_OF_TIME ||
+        (error->aspect == CHECK_OF_SPEED && error->where == CHECK_AT_SPEED))
         snprintf(text, size, "%s: --column '%s=%.60s'", error->should_be, error->should_be, place->column);
+    if (error->where == CHECK_AT_SPEED_M)
+        snprintf(text, size, "%s: --column 'speed_e=%.60s'", error->should_be, place->column);
     if (error->aspect == CHECK_OF_CURRENT_SIGN)
         snprintf(text, size, "with the opposite sign: --column '%s=-%.60s', and so of each current",
                  current_of(data, place), place->column);

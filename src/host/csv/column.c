@@ -85,7 +85,26 @@ const hci_unit *hci_column_unit(const hci_csv *csv, size_t column)
     return unit != NULL ? unit : hci_csv_row_unit(csv, column);
 }
 
-/* In the unit that the header says, or the row of units, or the user, or in the canonical one. */
+/* What a name without a unit is read in where nobody says what it is, as turn/s for `vel_estimate`; NULL: the
+ * name says no such quantity. */
+static const hci_unit *usual_unit(const hci_csv *csv, size_t column, const hci_unit *want)
+{
+    const char *header = hci_csv_cell(csv, 0, column);
+    const hci_unit *unit, *of_name;
+    for (size_t k = 0; k < hci_alias_count; ++k) {
+        if (hci_aliases[k].unit == NULL || hci_aliases[k].beside != NULL) continue;
+        unit = hci_unit_find(hci_aliases[k].unit, strlen(hci_aliases[k].unit));
+        if (unit->dimension == want->dimension && hci_column_split_alias(header, &hci_aliases[k], &of_name))
+            return unit;
+    }
+    const hci_alias *said = hci_name_words(header, NULL, &of_name);
+    if (said == NULL || said->unit == NULL) return NULL;
+    unit = hci_unit_find(said->unit, strlen(said->unit));
+    return unit->dimension == want->dimension ? unit : NULL;
+}
+
+/* In the unit that the user says, or the header, or the row of units, or that is usual for such a name, or in
+ * the canonical one. */
 static hci_column_match find_given(const hci_csv *csv, const hci_wanted_column *want)
 {
     const hci_unit *said;
@@ -95,14 +114,18 @@ static hci_column_match find_given(const hci_csv *csv, const hci_wanted_column *
         if (said != NULL && said->dimension != want->unit->dimension) continue;
         hci_column_match result = {.kind = HCI_COLUMN_ONE, .column = column, .factor = 1};
         const hci_unit *of_file = hci_column_unit(csv, column);
-        const hci_unit *unit = of_file != NULL ? of_file : said;
-        if (csv->given[k].counts > 0.0) unit = hci_unit_find("turn", 4);
+        const hci_unit *unit = said != NULL ? said : of_file;
+        const bool is_counted = csv->given[k].counts > 0.0;
+        if (is_counted) unit = hci_unit_find("turn", 4);
         result.has_unit = unit != NULL;
+        if (unit == NULL) unit = usual_unit(csv, column, want->unit);
         if (unit == NULL) unit = want->unit;
-        result.factor = unit->factor / want->unit->factor;
-        if (csv->given[k].counts > 0.0) result.factor /= csv->given[k].counts;
-        if (csv->given[k].is_opposite) result.factor = -result.factor;
-        if (unit->dimension != want->unit->dimension) result.kind = HCI_COLUMN_GIVEN_UNIT;
+        result.factor = unit->factor / want->unit->factor / csv->given[k].divisor;
+        if (is_counted) result.factor /= csv->given[k].counts;
+        if (of_file != NULL && !is_counted && !hci_unit_equal(of_file, unit))
+            result.overruled_by = csv->given[k].name;
+        if (!is_counted && of_file != NULL && of_file->dimension != want->unit->dimension)
+            result.kind = HCI_COLUMN_GIVEN_UNIT;
         return result;
     }
     return (hci_column_match){.kind = HCI_COLUMN_NONE, .factor = 1};
@@ -139,7 +162,7 @@ hci_status hci_csv_give_counts(hci_csv *csv, const char *name, size_t column, do
     snprintf(given->name, sizeof given->name, "%s", name);
     given->column = column;
     given->counts = counts;
-    given->is_opposite = false;
+    given->divisor = 1.0;
     return HCI_OK;
 }
 
@@ -329,10 +352,25 @@ bool hci_csv_find(const hci_csv *csv, const char *name, size_t *column)
     return found.kind != HCI_COLUMN_NONE;
 }
 
+/* A unit of the file that yields to the one that the user says. */
+static void tell_overruled(const hci_csv *csv, const hci_column_match *found, hci_note *told)
+{
+    size_t base;
+    char quoted[HCI_QUOTE_SIZE];
+    const char *said = found->overruled_by;
+    hci_unit_of_name(said, &base);
+    hci_note_set(told, HCI_OK, "%s is read in %s, as `%s` says, and not in the unit that the file has for it",
+                 hci_quote(hci_csv_cell(csv, 0, found->column), quoted), said + base + 1, said);
+}
+
 bool hci_csv_told(const hci_csv *csv, const char *name, hci_note *told)
 {
     const hci_column_match found = hci_column_find(csv, name);
     char quoted[HCI_QUOTE_SIZE];
+    if (found.overruled_by != NULL) {
+        tell_overruled(csv, &found, told);
+        return true;
+    }
     if (found.alias == NULL || found.alias->meaning == NULL) return false;
     if (hci_name_words_are_clear(found.alias) && found.has_unit) return false;
     const bool supposed = !found.has_unit && strcmp(found.alias->unit, "1") != 0;

@@ -21,9 +21,10 @@ typedef enum {
 typedef struct {
     hci_column_kind kind;
     size_t column;
-    double factor;          /* from the file's unit to the unit asked for */
-    const hci_alias *alias; /* by which it was found; NULL: by its own name */
-    bool has_unit;          /* the file says a unit */
+    double factor;            /* from the file's unit to the unit asked for */
+    const hci_alias *alias;   /* by which it was found; NULL: by its own name */
+    bool has_unit;            /* the file says a unit */
+    const char *overruled_by; /* the name by which the user says another unit than the file; NULL: none is */
 } hci_column_match;
 
 /* The unit at the end of a header under any name, such as "AI3 (mV)", or in the row of units; NULL: none. */

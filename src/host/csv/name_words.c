@@ -474,23 +474,74 @@ static bool ends_in_unit(const char *name)
     return true;
 }
 
-bool hci_name_words_like_torque(const char *name, const hci_unit *of_row)
+/* The words of a name alone, whatever is between. False: letters of another script. */
+static bool cut_plain(const char *name, name_words *w)
 {
-    name_words w = {.count = 0};
-    bool is_like = is_in(of_row, "N*m");
-    for (size_t end = 1; name[0] != '\0' && name[end] != '\0'; ++end)
-        is_like =
-            is_like || (strchr("_([/, ", name[end]) && is_in(hci_column_unit_of_tail(name + end), "N*m"));
     char plain[MOST_BYTES];
     size_t used = 0;
-    for (; name[used] != '\0' && used + 1 < sizeof plain; ++used) /* the words alone, whatever is between */
+    for (; name[used] != '\0' && used + 1 < sizeof plain; ++used)
         plain[used] = is_letter(name[used]) || is_digit(name[used]) || (name[used] & 0x80) ? name[used] : ' ';
     plain[used] = '\0';
-    if (hci_channel_is_wanted(name, strlen(name))) return false;
-    if (!cut(plain, used, &w)) return is_like;
+    if (!cut(plain, used, w)) return false;
+    for (size_t k = 0; k < w->count; ++k)
+        w->kind[k] = kind_of(w->word[k]);
+    return true;
+}
+
+static bool ends_in(const char *name, const char *of)
+{
+    for (size_t end = 1; name[0] != '\0' && name[end] != '\0'; ++end)
+        if (strchr("_([/, ", name[end]) && is_in(hci_column_unit_of_tail(name + end), of)) return true;
+    return false;
+}
+
+/* "iq", "i_q": a current that a name says by its letter. */
+static bool has_current_letter(const name_words *w)
+{
+    static const char AXES[] = "d q sd sq";
+    for (size_t k = 0; k < w->count; ++k) {
+        if (w->word[k][0] != 'i') continue;
+        const char *rest = w->word[k] + 1;
+        if (*rest == '\0' && k + 1 < w->count && is_among(AXES, w->word[k + 1])) return true;
+        if (is_among(AXES, rest)) return true;
+    }
+    return false;
+}
+
+/* What a supply or a battery has is none of the motor. */
+static bool is_of_supply(const name_words *w)
+{
+    static const char SUPPLY[] = "bus dc supply battery batt bat dclink ibus";
+    for (size_t k = 0; k < w->count; ++k)
+        if (is_among(SUPPLY, w->word[k])) return true;
+    return false;
+}
+
+bool hci_name_words_like(hci_name_like what, const char *name, const hci_unit *of_row)
+{
+    static const struct {
+        const char *unit;
+        word_kind kind;
+    } LIKE[] = {[HCI_LIKE_TORQUE] = {"N*m", TORQUE},
+                [HCI_LIKE_CURRENT] = {"A", CURRENT},
+                [HCI_LIKE_SPEED] = {"rpm", SPEED},
+                [HCI_LIKE_POSITION] = {"rad", POSITION}};
+    name_words w = {.count = 0};
+    const bool is_like = is_in(of_row, LIKE[what].unit) || ends_in(name, LIKE[what].unit);
+    const char *dot = strrchr(name, '.'), *last = dot != NULL ? dot + 1 : name; /* of a path */
+    if (hci_channel_is_wanted(last, strlen(last))) return false;
+    if (!cut_plain(name, &w)) return is_like;
+    if (what == HCI_LIKE_CURRENT && is_of_supply(&w)) return false;
+    return is_like || has(&w, LIKE[what].kind) || (what == HCI_LIKE_CURRENT && has_current_letter(&w));
+}
+
+bool hci_name_words_along_d(const char *name)
+{
+    name_words w = {.count = 0};
+    if (!cut_plain(name, &w)) return false;
     for (size_t k = 0; k < w.count; ++k)
-        is_like = is_like || kind_of(w.word[k]) == TORQUE;
-    return is_like;
+        if (is_among("d id isd sd", w.word[k])) return true;
+    return false;
 }
 
 bool hci_name_words_are_clear(const hci_alias *said)

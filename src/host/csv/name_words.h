@@ -16,8 +16,14 @@
  * none. O(length · words). */
 const hci_alias *hci_name_words(const char *name, const hci_unit *of_row, const hci_unit **unit);
 
-/* Whether a name that is not read may be that of a measured torque: by a word or its unit. */
-bool hci_name_words_like_torque(const char *name, const hci_unit *of_row);
+/* What a column that is not read may be. */
+typedef enum { HCI_LIKE_TORQUE, HCI_LIKE_CURRENT, HCI_LIKE_SPEED, HCI_LIKE_POSITION } hci_name_like;
+
+/* Whether a name may be that of a measured one: by a word or its unit; no current of a supply. */
+bool hci_name_words_like(hci_name_like what, const char *name, const hci_unit *of_row);
+
+/* Whether a word of it says d, as `Id_meas` does. */
+bool hci_name_words_along_d(const char *name);
 
 /* Whether an alias is one of words that leave nothing to be checked where the file says the unit. */
 bool hci_name_words_are_clear(const hci_alias *said);

@@ -22,8 +22,8 @@ typedef struct {
 typedef struct {
     char name[32]; /* canonical, with its unit or without */
     size_t column;
-    double counts;    /* of a turn, where the column counts them; 0: it does not */
-    bool is_opposite; /* the quantity is the negative of the column */
+    double counts;  /* of a turn, where the column counts them; 0: it does not */
+    double divisor; /* of the numbers in the column, for those of the quantity; -1: it is the opposite */
 } hci_csv_given;
 
 struct hci_csv {

@@ -1,9 +1,11 @@
 /* Numbers and texts out of the columns of a table, in the unit asked for. */
 #include <assert.h>
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "hci/host/base/number.h"
 #include "hci/host/base/text.h"
 #include "hci/host/base/utf8.h"
 #include "host/base/number_read.h"
@@ -215,6 +217,33 @@ hci_status hci_csv_error(const hci_csv *csv, const char *column, size_t row, hci
                                  .expected = expected,
                                  .remedy = remedy};
     return hci_csv_fault_note(csv, &fault, note);
+}
+
+/* ---- counts ---- */
+
+/* Degrees of a turn; an angle in whole ones goes over no more, and one that is counted on is told apart by
+ * nobody but the user. */
+#define FULL_TURN 360.0
+
+/* Counts of the smallest encoders. */
+#define LEAST_COUNTS 64.0
+
+bool hci_csv_is_counted(const hci_csv *csv, size_t column, double *of_turn)
+{
+    double least = DBL_MAX, most = -DBL_MAX;
+    *of_turn = 0.0;
+    for (size_t k = hci_csv_first_record(csv); k < csv->records; ++k) {
+        double value;
+        const char *cell = hci_csv_cell(csv, k, column);
+        if (*cell == '\0' || *cell == '#' || *cell == 'n' || *cell == 'N') continue; /* a hole */
+        if (!hci_number_parse(cell, &value) || value != floor(value)) return false;
+        least = fmin(least, value);
+        most = fmax(most, value);
+    }
+    if (!(most - least > 0.0)) return false;
+    const double power = exp2(round(log2(most + 1.0)));
+    if (least == 0.0 && most + 1.0 == power && power >= LEAST_COUNTS) *of_turn = power;
+    return *of_turn > 0.0 || most - least > FULL_TURN;
 }
 
 void hci_csv_unused(const hci_csv *csv, const bool *used, hci_note *remark)

@@ -1,4 +1,5 @@
 #include "host/diagnose/next_points.h"
+#include "hci/math/harmonic.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -44,7 +45,8 @@ static void advice_of_point(hci_diagnosis *d, const hci_next_point *p)
         hci_words_say(&(hci_words){d->advice, sizeof d->advice}, "i_q %.3g A, ", p->iq_A);
     else
         hci_words_say(&(hci_words){d->advice, sizeof d->advice}, "i_q as it comes, ");
-    hci_words_say(&(hci_words){d->advice, sizeof d->advice}, "%.4g rad/s (mechanical)", p->speed_rad_per_s);
+    hci_words_say(&(hci_words){d->advice, sizeof d->advice}, "%.4g rpm (%.4g rad/s)",
+                  p->speed_rad_per_s * 30.0 / HCI_PI, p->speed_rad_per_s);
 }
 
 /* ---- points ---- */

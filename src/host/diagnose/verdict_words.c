@@ -397,7 +397,7 @@ static void say_search(const hci_words *w, const hci_diagnosis *d)
 
 static void say_nothing_measured(const hci_words *w)
 {
-    hci_words_say(w, "Nothing can be said: no run with the role `fit` has an angle and a torque. Add "
+    hci_words_say(w, "Nothing can be said: no recording to fit to has an angle and a torque. Add "
                      "torque_Nm as a sensor "
                      "read it in each row (0 for a holding test without a load), or `inertia` to machine.csv "
                      "for a free shaft; "

@@ -154,10 +154,26 @@ static bool has_poles(const hci_machine_values *v)
     return false;
 }
 
+/* The row of a name that is likely to be a slip of `wanted`; false: there is none. */
+static bool find_slip(const hci_machine_values *v, const char *wanted, size_t *at)
+{
+    const char *name, *nearest;
+    for (*at = 0; *at < hci_csv_rows(v->csv); ++*at) {
+        if (hci_csv_text(v->csv, "name", *at, &name, NULL) || is_known(name)) continue;
+        nearest = meant(name);
+        if (nearest != NULL && strcmp(nearest, wanted) == 0) return true;
+    }
+    return false;
+}
+
 static hci_status check_pole_pairs(const hci_machine_values *v, hci_note *note)
 {
     const double p = v->value[PLACE_OF_pole_pairs];
+    size_t slip;
     if (p >= 1.0 && p <= 1000.0 && p == floor(p)) return HCI_OK;
+    if (isnan(p) && find_slip(v, "pole_pairs", &slip))
+        return hci_csv_error(v->csv, "name", slip, note, "`pole_pairs`, which is missing",
+                             "correct the name in this row");
     if (isnan(p))
         return hci_note_set(note, HCI_ERROR_INPUT, "%s: no `pole_pairs`; add a row `pole_pairs,N,1,source`%s",
                             hci_csv_path(v->csv), has_poles(v) ? ", with half of `poles`" : "");

@@ -66,8 +66,9 @@ static hci_status give(hci_csv *csv, size_t column, hci_run_column which, bool i
                  hci_quote(hci_csv_name(csv, column), quoted), is_mechanical ? "mechanical" : "electrical",
                  in_degrees ? ", in degrees" : "",
                  is_mechanical ? "as fast as" : "by the pole pairs faster than");
-    return hci_csv_give(csv, in_degrees ? (is_mechanical ? "theta_m_deg" : "theta_e_deg") : name(which),
-                        column, note);
+    const char *as =
+        is_mechanical ? (in_degrees ? "theta_m_deg" : "theta_m") : (in_degrees ? "theta_e_deg" : "theta_e");
+    return hci_csv_give(csv, as, column, note);
 }
 
 static hci_status compare(hci_csv *csv, size_t column, int pole_pairs, double *x, hci_note *note)
@@ -76,7 +77,7 @@ static hci_status compare(hci_csv *csv, size_t column, int pole_pairs, double *x
     hci_run_column which;
     if (!read(csv, name(HCI_RUN_TIME), x + TIME * n) || !read(csv, name(HCI_RUN_SPEED), x + SPEED * n))
         return HCI_OK;
-    hci_status status = hci_csv_give(csv, name(HCI_RUN_THETA_M), column, note);
+    hci_status status = hci_csv_give(csv, "theta_m", column, note); /* in the unit of the file */
     const bool is_read = !status && read(csv, name(HCI_RUN_THETA_M), x + ANGLE * n);
     if (!status) --csv->given_count;
     if (status || !is_read) return status;

@@ -215,8 +215,8 @@ bool hci_clock_mend(hci_stamps stamps, hci_note *remark)
     if (ascends(s->time_s, s->n)) return true;
     if (make_uniform(s, remark)) return true;
     const size_t repeated = spread(s, mean);
-    hci_note_add(remark, "%zu stamps are not later than the one before: their samples are spread evenly",
-                 repeated);
+    hci_note_add(remark, "%zu stamp%s not later than the one before: %s spread evenly", repeated,
+                 repeated == 1 ? " is" : "s are", repeated == 1 ? "its sample is" : "their samples are");
     return ascends(s->time_s, s->n);
 }
 

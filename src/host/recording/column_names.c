@@ -2,6 +2,7 @@
 
 #include "hci/host/recording/column_names.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -46,20 +47,75 @@ static bool is_quantity(const char *name)
     return quantity_of(name) != HCI_RUN_COLUMN_COUNT && strlen(name) < 32;
 }
 
-/* "; did you mean `torque_Nm`?", or all that there is. */
+/* Names in the units that logs have, as people would write them. */
+static const char *const USUAL[] = {
+    "time_ms",    "time_us",     "theta_m_deg",        "theta_m_turn", "theta_e_deg", "theta_e_turn",
+    "speed_rpm",  "speed_e_rpm", "speed_turn_per_s",   "iq_mA",        "id_mA",       "torque_mNm",
+    "torque_Ncm", "va_mV",       "speed_e_turn_per_s", "ia_mA",        "ib_mA",       "ic_mA"};
+
+enum { USUAL_COUNT = sizeof USUAL / sizeof *USUAL, NAMES_COUNT = HCI_RUN_COLUMN_COUNT + USUAL_COUNT };
+
+static void list_names(const char *names[NAMES_COUNT + 1])
+{
+    size_t count = 0;
+    for (unsigned k = 0; k < HCI_RUN_COLUMN_COUNT; ++k)
+        names[count++] = hci_run_column_name(k);
+    for (size_t k = 0; k < USUAL_COUNT; ++k)
+        names[count++] = USUAL[k];
+    names[count] = NULL;
+}
+
+/* The quantity that a name begins with, whatever stands behind it as a unit; HCI_RUN_COLUMN_COUNT: none. */
+static unsigned quantity_before_unit(const char *name)
+{
+    unsigned found = HCI_RUN_COLUMN_COUNT;
+    size_t longest = 0;
+    for (unsigned k = 0; k < HCI_RUN_COLUMN_COUNT; ++k) {
+        const hci_wanted_column want = hci_wanted_column_of(hci_run_column_name(k));
+        if (want.base_length <= longest || strncmp(name, want.base, want.base_length) != 0 ||
+            name[want.base_length] != '_')
+            continue;
+        found = k;
+        longest = want.base_length;
+    }
+    return found;
+}
+
+/* "units of it are those of `theta_m_rad`, `theta_m_deg`, `theta_m_turn`". */
+static void suggest_units(unsigned quantity, char *text, size_t size)
+{
+    const char *name = hci_run_column_name(quantity);
+    const size_t base = hci_wanted_column_of(name).base_length;
+    size_t used = (size_t)snprintf(text, size, "it has units as in `%s`", name);
+    for (size_t k = 0; k < USUAL_COUNT && used < size; ++k)
+        if (quantity_before_unit(USUAL[k]) == quantity && strncmp(USUAL[k], name, base) == 0)
+            used += (size_t)snprintf(text + used, size - used, ", `%s`", USUAL[k]);
+}
+
+/* "did you mean `torque_Nm`?", the units of a quantity, or all quantities that there are. */
 static void suggest_quantity(const char *name, char *text, size_t size)
 {
-    const char *names[HCI_RUN_COLUMN_COUNT + 1] = {NULL};
+    const char *names[NAMES_COUNT + 1], *nearest;
+    char plain[32];
     size_t used = 0;
-    for (unsigned k = 0; k < HCI_RUN_COLUMN_COUNT; ++k)
-        names[k] = hci_run_column_name(k);
-    const char *nearest = hci_nearest(name, names);
+    list_names(names);
+    snprintf(plain, sizeof plain, "%s", name);
+    for (char *at = plain; *at != '\0'; ++at)
+        if (*at == '-' || *at == ' ') *at = '_';
+    nearest = hci_nearest(plain, names);
     if (nearest != NULL) {
         snprintf(text, size, "did you mean `%s`?", nearest);
         return;
     }
+    if (quantity_before_unit(plain) != HCI_RUN_COLUMN_COUNT) {
+        suggest_units(quantity_before_unit(plain), text, size);
+        return;
+    }
     for (unsigned k = 0; k < HCI_RUN_COLUMN_COUNT && used < size; ++k)
         used += (size_t)snprintf(text + used, size - used, "%s%s", k > 0 ? ", " : "write one of ", names[k]);
+    if (used < size)
+        snprintf(text + used, size - used,
+                 ", its unit that of the column (torque_mNm), or without it where the header says one");
 }
 
 /* ---- the zero of the angle, which is no column ---- */
@@ -115,12 +171,17 @@ static bool check_offset(const hci_column_name *item, hci_status bad, hci_status
     return true;
 }
 
-static hci_status unknown_name(const char *from, const char *name, hci_status status, hci_note *note)
+/* Also of the two exchanged: "Winkel=theta_m". */
+static hci_status unknown_name(const hci_column_name *item, hci_status status, hci_note *note)
 {
-    char quoted[HCI_QUOTE_SIZE], remedy[400];
-    suggest_quantity(name, remedy, sizeof remedy);
-    return hci_note_set(note, status, "%.300s: found %s, expected a quantity of a recording; %s", from,
-                        hci_quote(name, quoted), remedy);
+    char quoted[HCI_QUOTE_SIZE], remedy[480];
+    if (is_quantity(item->column))
+        snprintf(remedy, sizeof remedy, "the column stands behind the sign: %s=%.200s", item->column,
+                 item->name);
+    else
+        suggest_quantity(item->name, remedy, sizeof remedy);
+    return hci_note_set(note, status, "%.300s: found %s, expected a quantity of a recording; %s", item->from,
+                        hci_quote(item->name, quoted), remedy);
 }
 
 /* ---- the list ---- */
@@ -145,13 +206,27 @@ static hci_status append(hci_column_names *names, hci_column_name item, hci_note
     return hci_note_memory(note, NULL, "names of columns");
 }
 
+/* One column cannot be two quantities. */
+static hci_status check_one_meaning(const hci_column_names *names, const hci_column_name *item,
+                                    hci_status bad, hci_note *note)
+{
+    char quoted[HCI_QUOTE_SIZE];
+    for (size_t k = 0; k < names->count; ++k)
+        if (strcmp(names->item[k].column, item->column) == 0 && is_quantity(item->name) &&
+            quantity_of(names->item[k].name) != quantity_of(item->name))
+            return hci_note_set(note, bad, "%.300s: found %s, which is `%s` already, expected another column",
+                                item->from, hci_quote(item->column, quoted), names->item[k].name);
+    return HCI_OK;
+}
+
 /* The same of what may be no name of a quantity: then `bad`. */
 static hci_status add(hci_column_names *names, hci_column_name item, hci_status bad, hci_note *note)
 {
     hci_status status = HCI_OK;
     const bool is_whole = item.name != NULL && item.column != NULL && item.from != NULL;
     if (is_whole && !check_offset(&item, bad, &status, note) && !is_quantity(item.name))
-        status = unknown_name(item.from, item.name, bad, note);
+        status = unknown_name(&item, bad, note);
+    if (is_whole && !status) status = check_one_meaning(names, &item, bad, note);
     if (!status) return append(names, item, note);
     release(&item);
     return status;
@@ -165,8 +240,12 @@ hci_status hci_column_names_add(hci_column_names *names, const char *text, hci_n
     if (equals == NULL || equals == text || equals[1] == '\0')
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
                             "--column: found `%.200s`, expected NAME=COLUMN such as torque_Nm=AI3", text);
-    const hci_column_name item = {copy_of(text, (size_t)(equals - text)),
-                                  copy_of(equals + 1, strlen(equals + 1)), copy_of(from, strlen(from))};
+    size_t length = (size_t)(equals - text);
+    while (length > 1 && text[length - 1] == ' ')
+        --length;
+    const char *column = equals + 1 + (equals[2] != '\0' ? strspn(equals + 1, " ") : 0);
+    const hci_column_name item = {copy_of(text, length), copy_of(column, strlen(column)),
+                                  copy_of(from, strlen(from))};
     return add(names, item, HCI_ERROR_ARGUMENT, note);
 }
 
@@ -281,15 +360,15 @@ static bool find_header(const hci_csv *csv, const char *header, size_t *column)
     return false;
 }
 
-/* "COLUMN/COUNTS": an angle in the counts of an encoder, of which a turn has COUNTS. length: out, of COLUMN.
- */
-static double counts_of(const hci_column_name *item, size_t *length)
+/* "COLUMN/NUMBER": an angle in the counts of an encoder, of which a turn has NUMBER, or a quantity that is
+ * the column over the number. length: out, of COLUMN; 0: there is no such number. */
+static double divisor_of(const hci_column_name *item, size_t *length)
 {
     const char *slash = strrchr(item->column, '/');
-    double counts;
-    if (slash == NULL || slash == item->column || !hci_number_parse(slash + 1, &counts)) return 0.0;
+    double divisor;
+    if (slash == NULL || slash == item->column || !hci_number_parse(slash + 1, &divisor)) return 0.0;
     *length = (size_t)(slash - item->column);
-    return counts >= 1.0 ? counts : 0.0;
+    return isfinite(divisor) ? divisor : 0.0;
 }
 
 /* An angle, of whatever unit. */
@@ -304,19 +383,24 @@ static bool is_angle(const char *name)
     return false;
 }
 
-static hci_status counts_error(const hci_csv *csv, const hci_column_name *item, bool given, hci_note *note)
+static hci_status given_counts_error(const hci_column_name *item, hci_note *note)
+{
+    return hci_note_set(note, HCI_ERROR_INPUT,
+                        "%.300s: found counts of a turn, expected them with an angle; write %s=COLUMN",
+                        item->from, item->name);
+}
+
+static hci_status counts_error(const hci_csv *csv, const hci_column_name *item, size_t column, hci_note *note)
 {
     char path[HCI_QUOTE_PATH_SIZE], quoted[HCI_QUOTE_SIZE];
-    if (given)
-        return hci_note_set(note, HCI_ERROR_INPUT,
-                            "%.300s: found counts of a turn, expected them with an angle; write %s=COLUMN",
-                            item->from, item->name);
+    double of_turn;
+    if (!hci_csv_is_counted(csv, column, &of_turn) || !(of_turn > 0.0)) of_turn = 4096.0;
     return hci_note_set(
         note, HCI_ERROR_INPUT,
         "%.300s: found %s in %s, which looks like the counts of an encoder, expected how many a turn has; "
-        "write %s=%s/COUNTS, such as %s/4096, or its unit if it has one, such as theta_m_deg=%s",
+        "write %s=%s/COUNTS, such as %s/%.0f, or its unit if it has one, such as theta_m_deg=%s",
         item->from, hci_quote(item->column, quoted), hci_quote_path(hci_csv_path(csv), path), item->name,
-        item->column, item->column, item->column);
+        item->column, item->column, of_turn, item->column);
 }
 
 static hci_status no_such_column(const hci_csv *csv, const hci_column_name *item, hci_note *note)
@@ -328,9 +412,20 @@ static hci_status no_such_column(const hci_csv *csv, const hci_column_name *item
     for (size_t k = 0; k < hci_csv_columns(csv) && k < MOST; ++k)
         names[k] = hci_csv_name(csv, k);
     const char *nearest = hci_nearest(item->column, names);
-    for (size_t k = 0; names[k] != NULL && used < sizeof list && nearest == NULL; ++k)
-        used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", k > 0 ? ", " : "; it has ",
+    for (size_t k = 0; names[k] != NULL && used < sizeof list; ++k)
+        used += (size_t)snprintf(list + used, sizeof list - used, "%s%s",
+                                 k > 0             ? ", "
+                                 : nearest != NULL ? " It has "
+                                                   : "; it has ",
                                  hci_quote(names[k], other));
+    double place;
+    if (hci_number_parse(item->column, &place) && place >= 1.0 && place == floor(place) &&
+        place <= (double)hci_csv_columns(csv))
+        return hci_note_set(
+            note, HCI_ERROR_INPUT,
+            "%.300s: found no column %s in %s, expected a column by its name; column %.0f is %s", item->from,
+            hci_quote(item->column, quoted), hci_quote_path(hci_csv_path(csv), path), place,
+            hci_quote(hci_csv_name(csv, (size_t)place - 1), other));
     return hci_note_set(note, HCI_ERROR_INPUT, "%.300s: found no column %s in %s%s%s%s%s", item->from,
                         hci_quote(item->column, quoted), hci_quote_path(hci_csv_path(csv), path),
                         nearest != NULL ? "; did you mean " : "",
@@ -355,17 +450,19 @@ static bool has_unit(const char *name, const hci_csv *csv, size_t column)
 
 static hci_status give(hci_csv *csv, const hci_column_name *item, size_t column, hci_note *note)
 {
-    if (is_angle(item->name) && hci_csv_counts(item->column) && !has_unit(item->name, csv, column))
-        return counts_error(csv, item, false, note);
+    double of_turn;
+    if (is_angle(item->name) && !has_unit(item->name, csv, column) &&
+        (hci_csv_counts(item->column) || hci_csv_is_counted(csv, column, &of_turn)))
+        return counts_error(csv, item, column, note);
     return hci_csv_give(csv, item->name, column, note);
 }
 
-/* The column before the "/COUNTS". */
-static bool find_counted(const hci_csv *csv, const hci_column_name *item, size_t *column)
+/* The column before the "/NUMBER". */
+static bool find_divided(const hci_csv *csv, const hci_column_name *item, size_t *column)
 {
     char header[256];
     size_t length;
-    if (counts_of(item, &length) <= 0.0 || length >= sizeof header) return false;
+    if (divisor_of(item, &length) == 0.0 || length >= sizeof header) return false;
     memcpy(header, item->column, length);
     header[length] = '\0';
     return find_header(csv, header, column);
@@ -387,17 +484,23 @@ static bool is_named_otherwise(const hci_column_names *names, const hci_column_n
         if (other == item || quantity_of(other->name) != quantity_of(item->name)) continue;
         const hci_column_name plain = without_sign(other);
         if (find_header(csv, other->column, &column) || find_header(csv, plain.column, &column) ||
-            find_counted(csv, &plain, &column))
+            find_divided(csv, &plain, &column))
             return true;
     }
     return false;
 }
 
-static hci_status give_counted(hci_csv *csv, const hci_column_name *item, size_t column, hci_note *note)
+static hci_status give_divided(hci_csv *csv, const hci_column_name *item, size_t column, hci_note *note)
 {
     size_t length;
-    return is_angle(item->name) ? hci_csv_give_counts(csv, item->name, column, counts_of(item, &length), note)
-                                : counts_error(csv, item, true, note);
+    const double divisor = divisor_of(item, &length);
+    if (is_angle(item->name) && divisor >= 1.0)
+        return hci_csv_give_counts(csv, item->name, column, divisor, note);
+    if (is_angle(item->name) || hci_csv_counts(hci_csv_name(csv, column)))
+        return given_counts_error(item, note);
+    const hci_status status = hci_csv_give(csv, item->name, column, note);
+    if (!status) csv->given[csv->given_count - 1].divisor = divisor;
+    return status;
 }
 
 /* *found: whether the file has the column. */
@@ -406,7 +509,7 @@ static hci_status apply_column(hci_csv *csv, const hci_column_name *item, bool *
     size_t column;
     *found = true;
     if (find_header(csv, item->column, &column)) return give(csv, item, column, note);
-    if (find_counted(csv, item, &column)) return give_counted(csv, item, column, note);
+    if (find_divided(csv, item, &column)) return give_divided(csv, item, column, note);
     *found = false;
     return HCI_OK;
 }
@@ -424,18 +527,40 @@ static hci_status apply(hci_csv *csv, const hci_column_name *item, bool *found, 
         return apply_column(csv, item, found, note);
     const hci_column_name opposite = without_sign(item);
     const hci_status status = apply_column(csv, &opposite, found, note);
-    if (!status && *found) csv->given[csv->given_count - 1].is_opposite = true;
+    if (!status && *found) csv->given[csv->given_count - 1].divisor *= -1.0;
     return status;
+}
+
+/* A file that has two columns which one list names for the same quantity: one would be passed over. */
+static hci_status check_given_once(const hci_csv *csv, size_t first, const hci_column_name *item,
+                                   hci_note *note)
+{
+    char path[HCI_QUOTE_PATH_SIZE], one[HCI_QUOTE_SIZE], other[HCI_QUOTE_SIZE];
+    const hci_csv_given *last = csv->given_count > first ? &csv->given[csv->given_count - 1] : NULL;
+    for (size_t k = first; last != NULL && k + 1 < csv->given_count; ++k)
+        if (quantity_of(csv->given[k].name) == quantity_of(last->name) &&
+            csv->given[k].column != last->column)
+            return hci_note_set(
+                note, HCI_ERROR_INPUT,
+                "%.300s: found %s beside %s in %s, expected one column for a quantity; leave one "
+                "of the two out",
+                item->from, hci_quote(hci_csv_name(csv, last->column), one),
+                hci_quote(hci_csv_name(csv, csv->given[k].column), other),
+                hci_quote_path(hci_csv_path(csv), path));
+    return HCI_OK;
 }
 
 hci_status hci_column_names_apply(const hci_column_names *names, bool optional, hci_csv *csv, hci_note *note)
 {
     hci_status status = HCI_OK;
+    const size_t first = csv->given_count;
     for (size_t k = 0; names != NULL && k < names->count && !status; ++k) {
         const hci_column_name *item = &names->item[k];
         bool found;
         status = apply(csv, item, &found, note);
-        if (!found && !is_named_otherwise(names, item, csv) && (!optional || !has_quantity(csv, item->name)))
+        if (!status && found) status = check_given_once(csv, first, item, note);
+        if (!status && !found && !is_named_otherwise(names, item, csv) &&
+            (!optional || !has_quantity(csv, item->name)))
             status = no_such_column(csv, item, note);
     }
     return status;
@@ -445,9 +570,11 @@ hci_status hci_column_names_apply_found(const hci_column_names *names, size_t *f
                                         hci_note *note)
 {
     hci_status status = HCI_OK;
+    const size_t first = csv->given_count;
     for (size_t k = 0; names != NULL && k < names->count && !status; ++k) {
         bool has;
         status = apply(csv, &names->item[k], &has, note);
+        if (!status && has) status = check_given_once(csv, first, &names->item[k], note);
         if (has || is_named_otherwise(names, &names->item[k], csv)) ++found[k];
     }
     return status;

@@ -60,6 +60,13 @@ static hci_status read_column(reader *r, hci_run_column which, double **values)
     return status;
 }
 
+static void keep_header(const reader *r, hci_run_column which, char text[HCI_RUN_NAME])
+{
+    size_t line;
+    const char *header = hci_run_column_header(&r->columns, which, &line);
+    snprintf(text, HCI_RUN_NAME, "%s", header != NULL ? header : "");
+}
+
 static hci_status missing(const reader *r, const char *found, const char *expected, const char *remedy)
 {
     char path[HCI_QUOTE_PATH_SIZE];
@@ -84,6 +91,7 @@ static hci_status read_time(reader *r)
 {
     hci_run *run = r->run;
     const hci_status status = read_column(r, HCI_RUN_TIME, &run->time_s);
+    keep_header(r, HCI_RUN_TIME, run->time_column);
     if (status || run->time_s == NULL) return status;
     double *work = hci_memory_new(run->count, sizeof *work);
     if (work == NULL) return memory_error(r);
@@ -123,6 +131,9 @@ static hci_status mend_clock(reader *r, hci_angle_path path)
 static hci_status read_speed(reader *r)
 {
     double **speed = &r->run->speed_rad_per_s;
+    const hci_run_column which = has(r, HCI_RUN_SPEED) ? HCI_RUN_SPEED : HCI_RUN_SPEED_E;
+    keep_header(r, which, r->run->speed_column);
+    r->run->speed_unit_rad_per_s = has(r, which) ? hci_run_column_factor(&r->columns, which) : 0.0;
     hci_status status = read_column(r, HCI_RUN_SPEED, speed);
     if (status || *speed != NULL) return status;
     status = read_column(r, HCI_RUN_SPEED_E, speed);
@@ -251,6 +262,18 @@ static void join_angles(reader *r, const double *theta_e)
     }
 }
 
+/* Where the angle came from, for who has to name another unit or column. */
+static void keep_angle_column(reader *r)
+{
+    double of_turn;
+    hci_run *run = r->run;
+    const hci_run_column which = has(r, HCI_RUN_THETA_E) ? HCI_RUN_THETA_E : HCI_RUN_THETA_M;
+    if (!has(r, which)) return;
+    keep_header(r, which, run->angle_column);
+    run->angle_unit_rad = hci_run_column_factor(&r->columns, which);
+    run->angle_is_counted = hci_csv_is_counted(r->columns.csv, r->columns.at[which], &of_turn);
+}
+
 static hci_status read_angles(reader *r, hci_angle_path *path)
 {
     hci_run *run = r->run;
@@ -260,6 +283,7 @@ static hci_status read_angles(reader *r, hci_angle_path *path)
     if (!status) status = read_angle(r, HCI_RUN_THETA_E, r->pole_pairs, &theta_e, &electrical);
     run->turn_known = run->theta_m_rad != NULL;
     run->is_electrical = theta_e != NULL;
+    keep_angle_column(r);
     *path = mechanical.path;
     if (!status && theta_e != NULL) {
         if (run->theta_m_rad != NULL) {
@@ -430,7 +454,7 @@ static hci_status read_currents(reader *r)
     r->no_currents = !has(r, HCI_RUN_IQ);
     if (r->no_currents && r->run->theta_m_rad != NULL)
         hci_note_add(&r->run->remark, "no currents: taken as 0");
-    if (r->no_currents) hci_run_columns_current_like(&r->columns);
+    if (r->no_currents) hci_run_columns_current_like(&r->columns, r->run->current_like);
     return read_dq(r, HCI_RUN_ID, HCI_RUN_IQ, &r->run->i_A);
 }
 
@@ -572,6 +596,8 @@ static hci_status read_all(reader *r)
     if (!status) status = read_torque(r);
     if (!status && run->torque_source == HCI_TORQUE_NONE)
         hci_run_columns_torque_like(&r->columns, run->torque_like);
+    if (!status && (run->speed_rad_per_s == NULL || run->speed_window > 0) && !has(r, HCI_RUN_SPEED))
+        hci_run_columns_speed_like(&r->columns);
     if (!status) hci_run_columns_tell_unused(&r->columns);
     return status;
 }

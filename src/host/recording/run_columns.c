@@ -70,7 +70,7 @@ static bool looks_like_angle(const char *name)
                                         "resolver", "angolo", "angulaire", "angul", "rotor"};
     for (size_t k = 0; k < sizeof WORDS / sizeof *WORDS; ++k)
         if (has_word(name, WORDS[k]) && !has_word(name, "current")) return true;
-    return false;
+    return hci_name_words_like(HCI_LIKE_POSITION, name, NULL);
 }
 
 /* The header of the first column after another one that is likely to be the angle; NULL: none. */
@@ -116,14 +116,54 @@ static const char *likely_voltage(const hci_run_columns *c)
     return NULL;
 }
 
-void hci_run_columns_say_angle(const hci_run_columns *c, hci_note *missing)
+/* The place of a header. */
+static size_t place_of(const hci_run_columns *c, const char *header)
 {
-    const char *name = likely_angle(c), *voltage = likely_voltage(c);
+    size_t column = 0;
+    while (column + 1 < hci_csv_columns(c->csv) && hci_csv_name(c->csv, column) != header)
+        ++column;
+    return column;
+}
+
+/* "_deg", which --column needs where the header has no unit, and which would overrule one that it has. */
+static const char *unit_to_say(const hci_run_columns *c, const char *header, const char *unit)
+{
+    return hci_column_unit(c->csv, place_of(c, header)) == NULL ? unit : "";
+}
+
+/* Of what may be the angle: counts by its name or its numbers. of_turn: out, counts of a turn; 0: not told.
+ */
+static bool is_counted(const hci_run_columns *c, const char *header, double *of_turn)
+{
+    const bool by_numbers = hci_csv_is_counted(c->csv, place_of(c, header), of_turn);
+    return hci_csv_counts(header) || (by_numbers && *unit_to_say(c, header, "_") != '\0');
+}
+
+static void say_counts(const char *name, double of_turn, hci_note *missing)
+{
+    char counts[32] = "COUNTS";
+    if (of_turn > 0.0) snprintf(counts, sizeof counts, "%.0f", of_turn);
+    hci_note_add(missing,
+                 "if `%.60s` is an encoder, say --column \"theta_m=%.60s/%s\" with its counts of a turn%s%s",
+                 name, name, counts, of_turn > 0.0 ? "" : ", such as 4096",
+                 hci_csv_counts(name) ? "" : " (theta_m_deg if it is in whole degrees)");
+}
+
+static void say_voltage(const hci_run_columns *c, hci_note *missing)
+{
+    const char *voltage = likely_voltage(c);
     if (voltage != NULL)
         hci_note_add(missing,
-                     "if `%.60s` is a voltage of the machine turned by another, say --column \"va_V=%.60s\" "
-                     "(vab_V line to line) and so of the others",
+                     "if `%.60s` is a voltage of the machine turned by another, say --column \"va=%.60s\" "
+                     "(vab line to line) and so of the others",
                      voltage, voltage);
+}
+
+void hci_run_columns_say_angle(const hci_run_columns *c, hci_note *missing)
+{
+    const char *name = likely_angle(c);
+    double of_turn;
+    say_voltage(c, missing);
     if (name == NULL && c->has[HCI_RUN_TIME])
         hci_note_add(
             missing,
@@ -131,15 +171,17 @@ void hci_run_columns_say_angle(const hci_run_columns *c, hci_note *missing)
             "time will do, too");
     else if (name == NULL)
         hci_note_add(missing, "or say which column it is: --column theta_m_deg=COLUMN");
-    else if (hci_csv_counts(name))
-        hci_note_add(missing,
-                     "if `%.60s` is an encoder, say --column \"theta_m=%.60s/COUNTS\" with its counts of a "
-                     "turn, such as 4096",
-                     name, name);
-    else
+    else if (is_counted(c, name, &of_turn))
+        say_counts(name, of_turn, missing);
+    else if (*unit_to_say(c, name, "_deg") != '\0')
         hci_note_add(missing,
                      "if `%.60s` is the angle of the rotor, say --column \"theta_m_deg=%.60s\" (or "
                      "theta_m_rad; theta_e of an "
+                     "electrical angle)",
+                     name, name);
+    else
+        hci_note_add(missing,
+                     "if `%.60s` is the angle of the rotor, say --column \"theta_m=%.60s\" (theta_e of an "
                      "electrical angle)",
                      name, name);
     say_other_angles(c, missing);
@@ -180,15 +222,17 @@ hci_status hci_run_columns_angle_like(const hci_run_columns *c, const double *th
                                       char text[HCI_RUN_NAME])
 {
     const char *name = likely_angle(c);
+    double of_turn = 0.0;
     if (name == NULL || strlen(name) + 24 > HCI_RUN_NAME) return HCI_OK;
-    if (!hci_csv_counts(name)) {
-        snprintf(text, HCI_RUN_NAME, "theta_m_deg=%s", name);
-        hci_note_add(c->remark, "`%s` may be the angle: if it is, add --column '%s' (theta_m_rad in rad)",
-                     name, text);
+    if (!is_counted(c, name, &of_turn)) {
+        const char *unit = unit_to_say(c, name, "_deg");
+        snprintf(text, HCI_RUN_NAME, "theta_m%s=%s", unit, name);
+        hci_note_add(c->remark, "`%s` may be the angle: if it is, add --column '%s'%s", name, text,
+                     *unit != '\0' ? " (theta_m_rad in rad)" : "");
         return HCI_OK;
     }
     hci_note unused = {{0}};
-    double *counts = hci_memory_new(c->count, sizeof *counts), of_turn = 0.0;
+    double *counts = hci_memory_new(c->count, sizeof *counts);
     if (counts == NULL) return memory_error(c);
     if (!hci_csv_numbers(c->csv, name, counts, &unused))
         of_turn = counts_of_turn(counts, theta_m_rad, c->count);
@@ -273,11 +317,10 @@ static void tell_lost_time(const hci_run_columns *c)
 {
     const char *name = c->has[HCI_RUN_TIME] ? NULL : likely_time(c);
     if (name != NULL)
-        hci_note_add(
-            c->remark,
-            "no column is read as the time: if `%.60s` is it, say --column \"time_s=%.60s\" (time_ms in "
-            "milliseconds)",
-            name, name);
+        hci_note_add(c->remark,
+                     "no column is read as the time: if `%.60s` is it, say --column \"time%s=%.60s\"%s", name,
+                     unit_to_say(c, name, "_s"), name,
+                     *unit_to_say(c, name, "_s") != '\0' ? " (time_ms in milliseconds)" : "");
 }
 
 /* Neither angle nor voltages: most likely a column under another name. Where voltages would do without an
@@ -423,6 +466,11 @@ const char *hci_run_column_header(const hci_run_columns *c, hci_run_column which
     return hci_csv_name(c->csv, c->at[which]);
 }
 
+double hci_run_column_factor(const hci_run_columns *c, hci_run_column which)
+{
+    return fabs(hci_column_find(c->csv, NAME[which]).factor);
+}
+
 size_t hci_run_column_unit_line(const hci_run_columns *c, hci_run_column which)
 {
     return c->has[which] && hci_csv_row_unit(c->csv, c->at[which]) ? hci_csv_record_line(c->csv, 1) : 0;
@@ -438,13 +486,26 @@ static bool is_of_a_hundred(const hci_run_columns *c, size_t column)
     return strchr(hci_csv_name(c->csv, column), '%') != NULL;
 }
 
-void hci_run_columns_torque_like(const hci_run_columns *c, char name[HCI_RUN_NAME])
+/* "torque_Nm=NAME", or what there is room for. */
+static void remedy_of(const hci_run_columns *c, const char *quantity, const char *unit, const char *name,
+                      char text[HCI_RUN_NAME])
+{
+    snprintf(text, HCI_RUN_NAME, "%s%s=%s", quantity, unit_to_say(c, name, unit), name);
+}
+
+/* Whether a column was not read, and there is room to say how. */
+static bool is_left(const hci_run_columns *c, size_t column)
+{
+    return !c->used[column] && strlen(hci_csv_name(c->csv, column)) + 20 < HCI_RUN_NAME;
+}
+
+void hci_run_columns_torque_like(const hci_run_columns *c, char text[HCI_RUN_NAME])
 {
     char quoted[HCI_QUOTE_SIZE];
-    for (size_t column = 0; column < hci_csv_columns(c->csv) && name[0] == '\0'; ++column) {
+    for (size_t column = 0; column < hci_csv_columns(c->csv) && text[0] == '\0'; ++column) {
         const char *is = hci_csv_name(c->csv, column);
-        if (c->used[column] || strlen(is) >= HCI_RUN_NAME ||
-            !hci_name_words_like_torque(is, hci_csv_row_unit(c->csv, column)))
+        if (!is_left(c, column) ||
+            !hci_name_words_like(HCI_LIKE_TORQUE, is, hci_csv_row_unit(c->csv, column)))
             continue;
         if (is_of_a_hundred(c, column)) {
             hci_note_add(
@@ -454,22 +515,47 @@ void hci_run_columns_torque_like(const hci_run_columns *c, char name[HCI_RUN_NAM
                 hci_quote(is, quoted));
             return;
         }
-        snprintf(name, HCI_RUN_NAME, "%s", is);
-        hci_note_add(c->remark, "%s may be the torque: if it is, add --column 'torque_Nm=%s'",
-                     hci_quote(is, quoted), is);
+        remedy_of(c, "torque", "_Nm", is, text);
+        hci_note_add(c->remark, "%s may be the torque: if it is, add --column '%s'", hci_quote(is, quoted),
+                     text);
     }
 }
 
-void hci_run_columns_current_like(const hci_run_columns *c)
+/* Which current a name is likely to be of: along d where it says so, else along q. */
+static const char *axis_of(const char *name)
 {
-    const hci_unit *ampere = hci_unit_find("A", 1);
-    char quoted[HCI_QUOTE_SIZE];
+    return hci_name_words_along_d(name) ? "id" : "iq";
+}
+
+void hci_run_columns_current_like(const hci_run_columns *c, char text[HCI_RUN_NAME])
+{
+    char quoted[HCI_QUOTE_SIZE], remedy[HCI_RUN_NAME];
+    for (size_t column = 0; column < hci_csv_columns(c->csv); ++column) {
+        const char *name = hci_csv_name(c->csv, column), *axis = axis_of(name);
+        if (!is_left(c, column) ||
+            !hci_name_words_like(HCI_LIKE_CURRENT, name, hci_csv_row_unit(c->csv, column)))
+            continue;
+        remedy_of(c, axis, "_A", name, remedy);
+        if (text[0] == '\0' && axis[1] == 'q') memcpy(text, remedy, sizeof remedy);
+        hci_note_add(c->remark, "%s is a current that was not read: if it is i_%c, add --column '%s'",
+                     hci_quote(name, quoted), axis[1], remedy);
+    }
+}
+
+void hci_run_columns_speed_like(const hci_run_columns *c)
+{
+    char quoted[HCI_QUOTE_SIZE], remedy[HCI_RUN_NAME];
     for (size_t column = 0; column < hci_csv_columns(c->csv); ++column) {
         const char *name = hci_csv_name(c->csv, column);
-        const hci_unit *unit = hci_column_unit(c->csv, column);
-        if (!c->used[column] && unit != NULL && unit->dimension == ampere->dimension)
-            hci_note_add(c->remark, "%s is a current that was not read: if it is i_q, add --column 'iq=%s'",
-                         hci_quote(name, quoted), name);
+        if (!is_left(c, column) ||
+            !hci_name_words_like(HCI_LIKE_SPEED, name, hci_csv_row_unit(c->csv, column)))
+            continue;
+        remedy_of(c, "speed", "_rpm", name, remedy);
+        hci_note_add(
+            c->remark, "%s may be the speed: if it is, add --column '%s'%s", hci_quote(name, quoted), remedy,
+            *unit_to_say(c, name, "_") != '\0' ? " (speed_rad_per_s in rad/s, speed_rev_per_s in turn/s)"
+                                               : "");
+        return;
     }
 }
 

@@ -58,12 +58,16 @@ typedef struct {
  * or voltages, or with an angle that may be mechanical or electrical; HCI_ERROR_MEMORY. */
 hci_status hci_run_columns_find(const hci_csv *csv, hci_run_columns *c, hci_note *remark, hci_note *note);
 
-/* The column that was not read and may be a measured torque, which the remark tells, too. name: out, left
- * where there is none. */
-void hci_run_columns_torque_like(const hci_run_columns *c, char name[HCI_RUN_NAME]);
+/* The column that was not read and may be a measured torque, as --column takes it; the remark tells it, too.
+ * text: out, left where there is none. */
+void hci_run_columns_torque_like(const hci_run_columns *c, char text[HCI_RUN_NAME]);
 
-/* Tells in the remark which columns that were not read are currents by their unit. */
-void hci_run_columns_current_like(const hci_run_columns *c);
+/* Tells in the remark which columns that were not read are currents by their unit or name. text: out, the
+ * first that may be i_q, as --column takes it; left where there is none. */
+void hci_run_columns_current_like(const hci_run_columns *c, char text[HCI_RUN_NAME]);
+
+/* The same of the first that may be the speed, in the remark alone. */
+void hci_run_columns_speed_like(const hci_run_columns *c);
 
 /* Adds to an error which column may be the angle, and how to say it. */
 void hci_run_columns_say_angle(const hci_run_columns *c, hci_note *missing);
@@ -77,6 +81,9 @@ hci_status hci_run_columns_angle_like(const hci_run_columns *c, const double *th
 /* So, for who can do without angle and voltages: any column that is known will do. */
 hci_status hci_run_columns_find_any(const hci_csv *csv, hci_run_columns *c, hci_note *remark, hci_note *note);
 void hci_run_columns_release(hci_run_columns *c);
+
+/* What a 1 of a column that the file has is in the canonical unit. */
+double hci_run_column_factor(const hci_run_columns *c, hci_run_column which);
 
 /* The line of the row of units, where that names the unit of a column; 0: none does. */
 size_t hci_run_column_unit_line(const hci_run_columns *c, hci_run_column which);

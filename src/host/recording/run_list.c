@@ -1,9 +1,14 @@
+#define _POSIX_C_SOURCE 200809L
+
+#include "hci/host/recording/run.h"
+
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "hci/host/base/text.h"
 #include "hci/host/csv/csv.h"
-#include "hci/host/recording/run.h"
 #include "host/base/memory.h"
 #include "host/base/path.h"
 #include "host/base/quote.h"
@@ -127,6 +132,50 @@ static hci_status check_found(const list_reader *l)
     return status;
 }
 
+/* Counts in `found` which columns that options name a recording of the list has; one that cannot be read has
+ * none. */
+static void look_into(const list_reader *l, size_t row, size_t *found)
+{
+    hci_csv *csv;
+    const char *file;
+    hci_note unused = {{0}};
+    if (hci_csv_text(l->csv, "file", row, &file, &unused)) return;
+    char *path = path_of(hci_csv_path(l->csv), file);
+    if (path != NULL && !hci_csv_read_recording(path, &csv, &unused)) {
+        (void)hci_column_names_apply_found(l->run.columns, found, csv, &unused);
+        hci_csv_free(csv);
+    }
+    hci_memory_free(path);
+}
+
+/* A recording is refused while a column that options name is in none: the error of the first file that is
+ * there, which tells more than what is missed without it. */
+static hci_status refuse_absent(const list_reader *l, hci_status refused)
+{
+    const hci_column_names *names = l->run.columns;
+    const size_t rows = hci_csv_rows(l->csv), failed = l->runs->count;
+    const char *file;
+    hci_csv *csv;
+    hci_note absent = {{0}};
+    hci_status status = HCI_OK;
+    if (names == NULL || refused != HCI_ERROR_INPUT || failed >= rows) return refused;
+    for (size_t row = failed; row < rows; ++row)
+        look_into(l, row, l->run.columns_found);
+    if (hci_csv_text(l->csv, "file", failed, &file, &absent)) return refused;
+    char *path = path_of(hci_csv_path(l->csv), file);
+    if (path == NULL || hci_csv_read_recording(path, &csv, &absent)) {
+        hci_memory_free(path);
+        return refused;
+    }
+    for (size_t k = 0; k < names->count && !status; ++k)
+        if (l->run.columns_found[k] == 0)
+            status = hci_column_names_apply(&(hci_column_names){&names->item[k], 1}, false, csv, &absent);
+    hci_csv_free(csv);
+    hci_memory_free(path);
+    if (status == HCI_ERROR_INPUT && l->note != NULL) *l->note = absent;
+    return refused;
+}
+
 /* ---- one run ---- */
 
 static hci_status read_named(const list_reader *l, size_t row, const hci_run_options *options,
@@ -161,6 +210,22 @@ static hci_status read_one(const list_reader *l, size_t row, const char *file)
     return status;
 }
 
+/* The list names a file that is not there: which row does, and what its path begins from. */
+static hci_status check_there(const list_reader *l, size_t row, const char *file)
+{
+    char *path = path_of(hci_csv_path(l->csv), file), remedy[HCI_QUOTE_PATH_SIZE + 80];
+    char shown[HCI_QUOTE_PATH_SIZE];
+    if (path == NULL) return memory_error(l);
+    const bool is_there = l->run.memory_count > 0 || access(path, R_OK) == 0;
+    const char *why = strerror(errno);
+    if (!is_there)
+        snprintf(remedy, sizeof remedy, "%s: %s; a path begins at the folder of the list",
+                 hci_quote_path(path, shown), why);
+    hci_memory_free(path);
+    return is_there ? HCI_OK
+                    : hci_csv_error(l->csv, "file", row, l->note, "a recording that can be read", remedy);
+}
+
 static hci_status read_row(const list_reader *l, size_t row)
 {
     const char *file;
@@ -170,6 +235,7 @@ static hci_status read_row(const list_reader *l, size_t row)
         status =
             hci_csv_error(l->csv, "file", row, l->note, "the path of a run", "fill it or remove the row");
     if (!status) status = check_once(l, row, file);
+    if (!status) status = check_there(l, row, file);
     return status ? status : read_one(l, row, file);
 }
 
@@ -234,7 +300,10 @@ hci_status hci_runs_read(const char *path, const hci_runs_options *options, hci_
         hci_memory_new((options->run.columns != NULL ? options->run.columns->count : 0) + 1, sizeof(size_t));
     if (!status && l.run.columns_found == NULL) status = memory_error(&l);
     if (!status) status = read_rows(&l);
-    if (!status) status = check_found(&l);
+    if (!status)
+        status = check_found(&l);
+    else if (l.run.columns_found != NULL)
+        status = refuse_absent(&l, status);
     if (!status) status = hci_estimated_torques_leave(runs->run, runs->count, &options->run, note);
     if (!status) status = hci_untold_torques_join(runs->run, runs->count, &options->run, note);
     hci_memory_free(l.run.columns_found);

@@ -718,7 +718,7 @@ static void test_mechanical_angle_under_electrical_name(void)
     write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
     check_runs("time_s,theta_e_rad,speed_rad_per_s,ia_A,ib_A,ic_A,va_V,vb_V,vc_V,torque_Nm", none, true);
     expect_only("theta_mechanical_for_electrical");
-    TEST_ASSERT_EQUAL_STRING("theta_m_rad", check.finding[0].should_be);
+    TEST_ASSERT_EQUAL_STRING("theta_m: --column 'theta_m=theta_e_rad'", check.finding[0].should_be);
 }
 
 /* ---- what recordings prove by themselves */

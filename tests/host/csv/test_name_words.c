@@ -231,14 +231,25 @@ static void test_names_in_words(void)
 static void test_names_that_look_like_a_torque(void)
 {
     const hci_unit *Nm = hci_unit_find("N*m", 3);
-    TEST_ASSERT_TRUE(hci_name_words_like_torque("Drehmoment XY7 (Kanal 3)", NULL));
-    TEST_ASSERT_TRUE(hci_name_words_like_torque("Kanal 3 [Nm]", NULL));
-    TEST_ASSERT_TRUE(hci_name_words_like_torque("Kanal 3", Nm));
-    TEST_ASSERT_TRUE(hci_name_words_like_torque("torque@shaft#2", NULL));
-    TEST_ASSERT_FALSE(hci_name_words_like_torque("Drehmoment soll [Nm]", NULL));
-    TEST_ASSERT_FALSE(hci_name_words_like_torque("torque_command_Nm", NULL));
-    TEST_ASSERT_FALSE(hci_name_words_like_torque("Temperatur Raum", NULL));
-    TEST_ASSERT_FALSE(hci_name_words_like_torque("", NULL));
+    TEST_ASSERT_TRUE(hci_name_words_like(HCI_LIKE_TORQUE, "Drehmoment XY7 (Kanal 3)", NULL));
+    TEST_ASSERT_TRUE(hci_name_words_like(HCI_LIKE_TORQUE, "Kanal 3 [Nm]", NULL));
+    TEST_ASSERT_TRUE(hci_name_words_like(HCI_LIKE_TORQUE, "Kanal 3", Nm));
+    TEST_ASSERT_TRUE(hci_name_words_like(HCI_LIKE_TORQUE, "torque@shaft#2", NULL));
+    TEST_ASSERT_FALSE(hci_name_words_like(HCI_LIKE_TORQUE, "Drehmoment soll [Nm]", NULL));
+    TEST_ASSERT_FALSE(hci_name_words_like(HCI_LIKE_TORQUE, "torque_command_Nm", NULL));
+    TEST_ASSERT_FALSE(hci_name_words_like(HCI_LIKE_TORQUE, "Temperatur Raum", NULL));
+    TEST_ASSERT_FALSE(hci_name_words_like(HCI_LIKE_TORQUE, "", NULL));
+    TEST_ASSERT_TRUE(hci_name_words_like(HCI_LIKE_CURRENT, "axis0.motor.current_control.Iq_meas", NULL));
+    TEST_ASSERT_TRUE(hci_name_words_like(HCI_LIKE_CURRENT, "Iq_x", NULL));
+    TEST_ASSERT_TRUE(hci_name_words_like(HCI_LIKE_CURRENT, "i_q_raw", NULL));
+    TEST_ASSERT_TRUE(hci_name_words_like(HCI_LIKE_CURRENT, "current", NULL));
+    TEST_ASSERT_FALSE(hci_name_words_like(HCI_LIKE_CURRENT, "bus_current", NULL));
+    TEST_ASSERT_FALSE(hci_name_words_like(HCI_LIKE_CURRENT, "Iq_setpoint", NULL));
+    TEST_ASSERT_FALSE(hci_name_words_like(HCI_LIKE_CURRENT, "index", NULL));
+    TEST_ASSERT_TRUE(hci_name_words_like(HCI_LIKE_SPEED, "vel", NULL));
+    TEST_ASSERT_FALSE(hci_name_words_like(HCI_LIKE_SPEED, "level", NULL));
+    TEST_ASSERT_TRUE(hci_name_words_along_d("axis0.Id_meas"));
+    TEST_ASSERT_FALSE(hci_name_words_along_d("Iq_meas"));
 }
 
 static double second_number(const hci_csv *csv, const char *column)

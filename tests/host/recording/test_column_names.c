@@ -207,15 +207,90 @@ static void test_a_lost_time_is_said_first(void)
              note.text);
 }
 
-/* The unit of the header, or of the row of units, comes before that of the option. */
-static void test_units_of_the_file(void)
+/* A unit that the user says comes before that of the header or of the row of units, and is told; without one
+ * that of the file holds, or the one that is usual for such a name. */
+static void test_units_that_are_said(void)
 {
     files_write(path, "ch a,ch b [mNm],c\ndeg,,A\n0,1000,1\n180,2000,1\n");
     add("theta_m=ch a");
-    add("torque_Nm=ch b [mNm]");
+    add("torque=ch b [mNm]");
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, REF_PI, run.theta_m_rad[1]);
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0, run.torque_Nm[1]);
+    TEST_ASSERT_NULL(strstr(run.remark.text, "is read in"));
+    add("theta_m_rad=ch a");
+    add("torque_Nm=ch b [mNm]");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 180.0, run.theta_m_rad[1]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2000.0, run.torque_Nm[1]);
+    text_has("`ch a` is read in rad, as `theta_m_rad` says, and not in the unit that the file has for it",
+             run.remark.text);
+    text_has("`ch b [mNm]` is read in Nm, as `torque_Nm` says", run.remark.text);
+    hci_column_names_release(&names);
+    files_write(files_path("columns.csv"), "name,column\ntorque_mNm,Moment [Nm]\n");
+    files_write(path, "theta_m_rad,Moment [Nm]\n0,1000\n1,2000\n");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0, run.torque_Nm[1]);
+    text_has("`Moment [Nm]` is read in mNm", run.remark.text);
+    files_write(path, "time_s,pos_estimate,vel_estimate,torque_Nm\n0,0,1,1\n0.1,0.1,1,2\n0.2,0.2,1,3\n");
+    remove(files_path("columns.csv"));
+    add("theta_m=pos_estimate");
+    add("speed=-vel_estimate");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.2 * REF_PI, run.theta_m_rad[1] - run.theta_m_rad[0]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, -2.0 * REF_PI, run.speed_rad_per_s[1]);
+}
+
+/* Whole numbers beyond 360, or up to a power of two, are counts whatever the column is called. */
+static void test_counts_by_their_numbers(void)
+{
+    files_write(path, "encoder,torque_Nm\n0,1\n1000,2\n2000,3\n");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_run());
+    text_has("if `encoder` is an encoder, say --column \"theta_m=encoder/COUNTS\"", note.text);
+    add("theta_m=encoder");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_run());
+    text_has("looks like the counts of an encoder", note.text);
+    hci_column_names_release(&names);
+    add("theta_m_deg=encoder");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    hci_column_names_release(&names);
+    files_write(path, "rotor,torque_Nm\n0,1\n128,2\n255,3\n");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_run());
+    text_has("say --column \"theta_m=rotor/256\"", note.text);
+    files_write(path, "rotor,torque_Nm\n0,1\n128,2\n359,3\n");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_run());
+    text_has("say --column \"theta_m_deg=rotor\"", note.text);
+    files_write(path, "rotor X [rad],torque_Nm\n0,1\n128.5,2\n359,3\n");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_run());
+    text_has("say --column \"theta_m=rotor X [rad]\"", note.text);
+}
+
+/* What check says of a probe on another range: the column over a number. */
+static void test_a_column_over_a_number(void)
+{
+    files_write(path, "theta_m_rad,probe,torque_Nm\n0.5,20,1\n0.6,30,2\n");
+    add("iq=probe/10");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    double square = 0.0;
+    for (int s = 0; s < 3; ++s)
+        square += run.i_A[s] * run.i_A[s];
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.5 * 2.0 * 2.0, square);
+    hci_column_names_release(&names);
+    add("torque=-probe/-0.5");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 40.0, run.torque_Nm[0]);
+}
+
+/* Currents and speeds that go by names which are not known are named with what reads them. */
+static void test_currents_and_speeds_that_were_not_read(void)
+{
+    files_write(path, "time_s,theta_m_rad,m0.current_control.Iq_meas,bus_current,vel,torque_Nm\n"
+                      "0,0,1,9,1,1\n0.1,0.1,1,9,1,2\n0.2,0.2,1,9,1,1\n0.3,0.3,1,9,1,2\n");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    text_has("if it is i_q, add --column 'iq_A=m0.current_control.Iq_meas'", run.remark.text);
+    TEST_ASSERT_EQUAL_STRING("iq_A=m0.current_control.Iq_meas", run.current_like);
+    text_has("`vel` may be the speed: if it is, add --column 'speed_rpm=vel'", run.remark.text);
+    TEST_ASSERT_NULL(strstr(run.remark.text, "iq_A=bus_current"));
 }
 
 /* What is said comes before all names, and a column is not two things. */
@@ -353,7 +428,10 @@ int main(void)
     RUN_TEST(test_an_angle_offset);
     RUN_TEST(test_a_list_of_columns_is_no_recording);
     RUN_TEST(test_a_lost_time_is_said_first);
-    RUN_TEST(test_units_of_the_file);
+    RUN_TEST(test_units_that_are_said);
+    RUN_TEST(test_counts_by_their_numbers);
+    RUN_TEST(test_a_column_over_a_number);
+    RUN_TEST(test_currents_and_speeds_that_were_not_read);
     RUN_TEST(test_what_is_said_comes_first);
     RUN_TEST(test_a_table_beside_the_recording_and_one_beside_the_list);
     RUN_TEST(test_a_table_need_not_fit_where_names_do);

@@ -280,7 +280,7 @@ static void test_names_in_other_languages_are_read(void)
 static void test_a_voltage_of_another_name_is_asked_for(void)
 {
     TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, find("time_s,probe (V),gate (V)\n0,1,1\n"));
-    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(note.text, "say --column \"va_V=probe (V)\""), note.text);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(note.text, "say --column \"va=probe (V)\""), note.text);
     remark.text[0] = note.text[0] = '\0';
     hci_run_columns_release(&columns);
     hci_csv_free(csv);

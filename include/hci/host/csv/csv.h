@@ -64,7 +64,7 @@ size_t hci_csv_line(const hci_csv *csv, size_t row);
 bool hci_csv_has(const hci_csv *csv, const char *column);
 
 /* Says which column a canonical name stands for, whatever the header says; the last word counts. name:
- * shorter than 32 bytes; its unit, where it has one, is that of the column, unless the file says one.
+ * shorter than 32 bytes; its unit, where it has one, is that of the column, whatever the file says.
  * HCI_ERROR_MEMORY. */
 hci_status hci_csv_give(hci_csv *csv, const char *name, size_t column, hci_note *note);
 
@@ -73,6 +73,10 @@ hci_status hci_csv_give_counts(hci_csv *csv, const char *name, size_t column, do
 
 /* Is a column, by its name, an encoder's counts? */
 bool hci_csv_counts(const char *name);
+
+/* Is it by its numbers: whole ones that go over more than 360, or from 0 to the last before a power of two?
+ * of_turn: out, that power; 0: not told. O(rows). */
+bool hci_csv_is_counted(const hci_csv *csv, size_t column, double *of_turn);
 
 /* What a column `order` counts periods of. */
 typedef enum { HCI_ORDER_ELECTRICAL, HCI_ORDER_MECHANICAL } hci_order_base;

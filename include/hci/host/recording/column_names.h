@@ -14,9 +14,9 @@ extern "C" {
 /* One quantity. */
 typedef struct {
     char *name;   /* as in docs/files.md; its unit, of its own or none ("torque_mNm", "torque"), is that of a
-                   column   that says none */
-    char *column; /* as the header of the recording spells it; "-COLUMN": the opposite of it, "COLUMN/COUNTS":
-                   * an angle in the counts of a turn */
+                   column, whatever its header says; without one the header's holds */
+    char *column; /* as the header of the recording spells it; "-COLUMN": the opposite of it, "COLUMN/NUMBER":
+                   * of an angle the counts of a turn, of other quantities what the column is divided by */
     char *from;   /* who says so: "path:line", or "--column NAME=COLUMN" */
 } hci_column_name;
 

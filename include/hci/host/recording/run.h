@@ -77,10 +77,17 @@ typedef struct {
                                 per ampere is not told */
     bool has_sum;            /* all three currents were recorded, so that their sum says something */
     int computed_phase; /* 1, 2, 3: of two phase currents the third was made, so that the sum is 0; 0: not */
-    char torque_like[HCI_RUN_NAME]; /* no torque was read, and this column, which was not, may be one; "":
-                                       none */
-    size_t *row;                    /* [count], of the file, from 0; NULL: each row is a sample */
-    hci_note remark;                /* what was supposed on reading, or "" */
+    char torque_like[HCI_RUN_NAME];  /* no torque was read, and this, as --column takes it, may read one that
+                                      * stands in the file; "": none */
+    char current_like[HCI_RUN_NAME]; /* the same of i_q, where no current was read */
+    char angle_column[HCI_RUN_NAME], speed_column[HCI_RUN_NAME],
+        time_column[HCI_RUN_NAME]; /* headers of the columns that these were read from, as far as there is
+                                    * room; "": none */
+    double angle_unit_rad;         /* a 1 of that column in rad, electrical where is_electrical; 0: none */
+    double speed_unit_rad_per_s;   /* the same of the speed; 0: none was recorded */
+    bool angle_is_counted;         /* the numbers of that column are whole, as an encoder counts */
+    size_t *row;                   /* [count], of the file, from 0; NULL: each row is a sample */
+    hci_note remark;               /* what was supposed on reading, or "" */
 } hci_run;
 
 /* What reading a run asks for beside its file. */

@@ -41,8 +41,9 @@ static void heading_of_currents(const hci_solution *s, char text[256])
     if (!hci_page_has_plain(s))
         snprintf(text, 256, "It takes a current of %s at the peak", after);
     else
-        snprintf(text, 256, "The phases carry %s at the peak, the %s %s; copper loss is %s times that", after,
-                 s->plain_is_held ? "held fundamental" : "plain sine", before, ratio);
+        snprintf(text, 256, "The phases carry %s at the peak, the %s %s; copper loss is %s%s", after,
+                 s->plain_is_held ? "held fundamental" : "plain sine", before,
+                 strcmp(ratio, "1") == 0 ? "the same" : ratio, strcmp(ratio, "1") == 0 ? "" : " times that");
 }
 
 void hci_page_currents(const hci_solution_page *p)

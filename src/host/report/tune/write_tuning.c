@@ -56,8 +56,10 @@ static bool name_log(const char *folder, const char *log, hci_note *note)
     hci_memory_free(file);
     hci_quote_path(joined, listed);
     const size_t length = strlen(listed);
-    if (strncmp(note->text, listed, length) != 0 || note->text[length] != ':') return false;
-    hci_note_set(&changed, HCI_OK, "%s%s", hci_quote_path(log, given), note->text + length);
+    const char *at = strstr(note->text, listed);
+    if (at == NULL || strchr(":; ,", at[length]) == NULL) return false;
+    hci_note_set(&changed, HCI_OK, "%.*s%s%s", (int)(at - note->text), note->text, hci_quote_path(log, given),
+                 at + length);
     *note = changed;
     return true;
 }

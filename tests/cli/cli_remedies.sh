@@ -1,0 +1,123 @@
+#!/bin/sh
+# Remedies that are printed work when they are typed as they stand, and what the user says by --column holds.
+#   cli_remedies.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+. "$1/tests/support/common.sh"
+use_plain_build
+cd "$work" || exit 1
+
+# log HEADER ANGLE SPEED CURRENT [ONE_WAY]: a slow turn of 7 pole pairs, two turns forward and back, in so many units of the
+# columns to a turn, to a turn/s and to an ampere.
+log() {
+    echo "$1"
+    awk -v angle="$2" -v speed="$3" -v current="$4" -v way="${5-}" 'BEGIN {
+        pi = atan2(0, -1); n = way ? 2090 : 4190; v = 2 / 20.5; a = v / 0.5; seed = 1
+        for (k = 5; k < n; ++k) {
+            t = k * 0.01; d = t < 21 ? 1 : -1; x = t < 21 ? t : 42 - t
+            w = x < 0.5 ? a * x : x > 20.5 ? a * (21 - x) : v
+            s = x < 0.5 ? a * x * x / 2 : x > 20.5 ? 2 - a * (21 - x) ^ 2 / 2 : v * (x - 0.25)
+            b = x < 0.5 ? a : x > 20.5 ? -a : 0
+            turn = 0.1 + s; seed = (seed * 16807) % 2147483647; noise = seed / 2147483647 - 0.5
+            i = 0.02 * d + 0.04 * sin(168 * pi * turn) + 0.005 * sin(24 * pi * turn) + 0.03 * b + 0.01 * noise
+            format = "%.4f,%." (angle > 1000 ? 0 : 6) "f,%.6f,%.6f\n"
+            printf format, t, angle * turn, speed * w * d, current * i
+        }
+    }'
+}
+# tuned CODE LOG WORD...: says what it found into `said`, in one line.
+tuned() {
+    code_of=$1 name=$2
+    shift 2
+    rm -rf o
+    run "$code_of" tune "$name" --pole-pairs 7 --kv 90 --torque 0.05 -o o "$@"
+    tr '\n' ' ' <"$work/stdout" | tr -s ' ' >said
+    tr '\n' ' ' <"$work/stderr" | tr -s ' ' >>said
+}
+tells() { for words in "$@"; do check "not said: $words" grep -qE -e "$words" said; done; }
+tells_not() { check "said: $1" eval "! grep -qE -e \"\$1\" said"; }
+# typed LOG: the first remedy that was printed, with all its options, and what was said before, typed as they stand.
+typed() {
+    name=$1
+    grep -oE -e "--column ('[^']*'|\"[^\"]*\")( --column '[^']*')?" said | head -n 1 >remedy
+    check "no remedy is printed for $name" test -s remedy
+    echo "\"\$hci_solve\" tune $name --pole-pairs 7 --kv 90 --torque 0.05 -o again $(cat remedy) ${2-}" >line.sh
+    rm -rf again
+    hci_solve=$hci_solve sh line.sh >again.txt 2>&1
+    check "$name: the remedy $(cat remedy) does not work: $(head -n 1 again.txt)" eval "grep -q '^tuned: ' again.txt"
+}
+
+# ---- units
+
+log time_s,theta_m_rad,speed_rad_per_s,iq_A 6.283185307 6.283185307 1 >rad.csv
+tuned 0 rad.csv
+log time_s,theta_m_rad,x,iq_A 360 0 1 | cut -d, -f1,2,4 >degrees.csv
+tuned 1 degrees.csv; tells "angle is in degrees .5.73 rpm; --column 'theta_m_deg=theta_m_rad'."; typed degrees.csv
+check 'the unit that is said is not remarked' grep -q 'is read in deg, as `theta_m_deg` says' again.txt
+log time_s,theta_m_rad,speed_rad_per_s,iq_A 6.283185307 60 1 >rpm.csv
+tuned 1 rpm.csv; tells "the speed is in rpm .*--column 'speed_rpm=speed_rad_per_s'"; typed rpm.csv
+log time_s,theta_m_rad,speed_rad_per_s,iq_A 6.283185307 6.283185307 1000 >milli.csv
+tuned 0 milli.csv --column iq_mA=iq_A; tells 'phase currents up to 0.0[0-9]* A' '`iq_A` is read in mA, as `iq_mA` says'
+log t,angle,vel,current 1 1 1 >turns.csv
+tuned 1 turns.csv --column theta_m=angle --column iq=current --column speed=vel
+tells "it is 2 whole turns and .angle. is in turns and not in rad: --column 'theta_m_turn=angle' --column 'speed_turn_per_s=vel'"
+typed turns.csv '--column iq=current'
+printf 'name,column\niq_mA,iq_A\n' >columns.csv
+tuned 0 milli.csv; tells '`iq_A` is read in mA, as `iq_mA` says'
+rm columns.csv
+
+# ---- columns
+
+log time_s,encoder,x,iq_A 4096 0 1 | cut -d, -f1,2,4 >counts.csv
+tuned 3 counts.csv; tells 'if `encoder` is an encoder, say --column "theta_m=encoder/COUNTS" .* such as 4096'
+sed -i 's/COUNTS/4096/' said; typed counts.csv
+tuned 3 counts.csv --column theta_m=encoder; tells 'encoder/4096'
+tuned 1 counts.csv --column theta_m_deg=encoder; tells 'in counts of an encoder'; tells_not 'is in degrees'
+tuned 3 turns.csv --column theta_m_turn=angel --column iq=current
+tells 'found no column `angel` in turns.csv; did you mean `angle`\? It has `t`, `angle`, `vel`, `current`'
+log time_s,theta_m_turn,speed_rpm,m0.current_control.Iq_meas 1 60 1 >name.csv
+tuned 1 name.csv; tells "no current was read: if the column .m0.current_control.Iq_meas. is i_q, add --column 'iq_A=m0.current_control.Iq_meas'"; typed name.csv
+log time_s,theta_e_turn,speed_rpm,iq_A 7 60 1 >poles.csv
+rm -rf o; run 1 tune poles.csv --pole-pairs 14 --kv 90 --torque 0.05 -o o
+tr '\n' ' ' <stdout | tr -s ' ' >said; tells '0.5 times as far: .*--pole-pairs 7: 7 pole pairs would fit, and not 14, which is the number of poles'
+tuned 0 poles.csv
+log time_s,theta_m_turn,speed_rpm,iq_A 1 60 1 one >one.csv
+tuned 1 one.csv; tells 'The shaft turns in one direction alone'; tells_not 'role `fit`'
+tuned 0 one.csv --holding
+
+# ---- values that contradict the log
+
+rm -rf o; run 0 tune rad.csv --pole-pairs 7 --volt-per-krpm 90 --torque 0.02 -o o
+tr '\n' ' ' <stdout | tr -s ' ' >said; tells 'by this Kv 0.02 N..m take 0.019 A, and the shaft without a load took up to 0.0[0-9]* A: is --volt-per-krpm the right number'
+
+# ---- the same folder again
+
+tuned 0 rad.csv; cp -r o kept
+run 0 tune rad.csv --pole-pairs 7 --kv 90 --torque 0.06 -o o
+check 'the results are not replaced' grep -q '^0,0.06' o/target.csv
+check 'something is left beside them' eval '! ls -A | grep -q before'
+run 3 tune rad.csv --pole-pairs 7 --kv 90 --torque 0.07 --column iq=nix -o o
+check 'a call that failed took the results away' grep -q '^0,0.06' o/target.csv
+mv o .o.before; mkdir -p o/machine; echo x >o/machine/machine.csv
+run 0 tune rad.csv --pole-pairs 7 --kv 90 --torque 0.05 -o o
+check 'what a killed call left is not mended' diff -r kept o
+touch -d '+1 minute' o/machine/effects.csv
+run 2 tune rad.csv --pole-pairs 7 --kv 90 -o o; says 'o/machine/effects.csv was changed since the results were written, and would be lost'
+rm o/machine/effects.csv; echo mine >o/notes.txt
+run 2 tune rad.csv --pole-pairs 7 --kv 90 -o o; says 'such as notes.txt'
+
+# ---- words
+
+run 2 tune - --pole-pairs 7 --kv 90 -o p; says 'found `-`, expected a file'
+run 2 tune rad.csv --pole-pairs 7 --kv 90 -o p --angle-offset abc; says '^hci-solve: --angle-offset abc: found `abc`'
+run 2 solve m --limit-peak 5; says 'those that begin so are `--limit-current`, .*`--limit-voltage`'
+mkdir 'my motor'
+run 2 solve my motor --target t.csv; says "one path with a blank in it; put it in quotes: 'my motor'"
+printf 'file,role\nrad.csv,fit\nnix.csv,fit\n' >list.csv
+cp -r kept/machine m
+run 3 diagnose m --runs list.csv; says 'list.csv:3: column 1 `file`: found `nix.csv`, expected a recording that can be read; nix.csv: No such file'
+sed -i 's/pole_pairs/polepairs/' m/machine.csv
+run 3 solve m --target kept/target.csv; says 'm/machine.csv:[0-9]*: column 1 `name`: found `polepairs`, expected `pole_pairs`, which is missing'
+printf 'order,amplitude_Nm,phase_rad\n0,2.46,0\n24/5,0.1,0\n' >t.csv
+run 0 solve kept/machine --target t.csv --auto -o c; says 'a rotor angle cannot drive it'
+run 0 emit c --name x --machine kept/machine -o c; says 'no part of the mechanical turn of 7; a rotor angle cannot drive it'
+
+finish
