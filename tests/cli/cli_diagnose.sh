@@ -164,7 +164,7 @@ wrong_list '`fit`' 'file,role\nslow.csv,holdout\n'
 cut -d, -f1-6 slow.csv >notorque.csv
 printf 'file,role\nnotorque.csv,fit\n' >notorque_list.csv
 run 1 diagnose machine --runs notorque_list.csv -o notorque # nothing can be said, and that is written
-says 'notorque_list.csv: unknown$' 'Nothing can be said: no run' 'torque_Nm'
+says 'notorque_list.csv: unknown$' 'Nothing can be said: no recording to fit to' 'torque_Nm'
 check "the machine as it is declared" cmp -s machine/back_emf.csv notorque/machine/back_emf.csv
 check "a report" [ -s notorque/report.html ]
 cp machine/machine.csv machine.kept # a log without a torque is no free shaft, and its load takes no magnets away

@@ -67,7 +67,7 @@ says 'note: the time does not go on: it is not used'
 printf 'AI1,AI2\n0,1\n90,1\n' >"$work/channels.csv"
 run 0 predict data/machine_a "$work/channels.csv" --column theta_e_deg=AI1 --column=iq_A=AI2 --json
 run 2 predict data/machine_a "$work/channels.csv" --column theta_e_dge=AI1
-says 'found `theta_e_dge`, expected a quantity of a recording; did you mean `theta_e_rad`\?'
+says 'found `theta_e_dge`, expected a quantity of a recording; did you mean `theta_e_deg`\?'
 run 3 predict data/machine_a "$work/channels.csv" --column theta_e_deg=AI11
 says 'found no column `AI11` in .*channels.csv; did you mean `AI1`\?'
 

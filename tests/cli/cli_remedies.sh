@@ -83,6 +83,25 @@ log time_s,theta_m_turn,speed_rpm,iq_A 1 60 1 one >one.csv
 tuned 1 one.csv; tells 'The shaft turns in one direction alone'; tells_not 'role `fit`'
 tuned 0 one.csv --holding
 
+# ---- columns almost named
+
+# wrong CODE NAME=COLUMN EXPRESSION
+wrong() { run "$1" predict kept/machine turns.csv --column "$2"; says "$3"; }
+tuned 0 rad.csv; cp -r o kept
+wrong 2 theta_m_dge=angle 'did you mean `theta_m_deg`\?'
+wrong 2 theta-m-turn=angle 'did you mean `theta_m_turn`\?'
+wrong 2 speed_Hz=vel 'it has units as in `speed_rad_per_s`, `speed_rpm`, `speed_turn_per_s`'
+wrong 2 angle=theta_m 'the column stands behind the sign: theta_m=angle'
+wrong 3 theta_m=2 'expected a column by its name; column 2 is `angle`'
+run 2 predict kept/machine turns.csv --column theta_m_turn=angle --column iq=angle; says 'found `angle`, which is `theta_m_turn` already'
+run 3 predict kept/machine turns.csv --column theta_m_turn=angle --column theta_m_turn=vel; says 'found `vel` beside `angle` in turns.csv'
+run 0 predict kept/machine turns.csv --column 'theta_m_turn = angle' --column 'iq_A= current'
+log time_ms,theta_m_turn,speed_rpm,iq_A 1 60 1 >seconds.csv
+tuned 1 seconds.csv; tells "1000 is s in a column that is read in ms; say --column 'time_s=time_ms'"; typed seconds.csv
+log time_s,theta_m_turn,speed_rpm,iq_A 1 420 1 >electrical.csv
+tuned 1 electrical.csv; tells "the speed is electrical.*--column 'speed_e=speed_rpm'"; typed electrical.csv
+run 2 tune rad.csv -p 7 -o p; says 'those that begin so are `--pole-pairs`, `--poles`'
+
 # ---- values that contradict the log
 
 rm -rf o; run 0 tune rad.csv --pole-pairs 7 --volt-per-krpm 90 --torque 0.02 -o o
@@ -90,7 +109,7 @@ tr '\n' ' ' <stdout | tr -s ' ' >said; tells 'by this Kv 0.02 N..m take 0.019 A,
 
 # ---- the same folder again
 
-tuned 0 rad.csv; cp -r o kept
+tuned 0 rad.csv
 run 0 tune rad.csv --pole-pairs 7 --kv 90 --torque 0.06 -o o
 check 'the results are not replaced' grep -q '^0,0.06' o/target.csv
 check 'something is left beside them' eval '! ls -A | grep -q before'
