@@ -37,12 +37,12 @@ tuned 1 gear
 check "a table over the angle behind a gear" [ ! -e gear/table ]
 
 # an angle in a unit in which the shaft would have spun, without a speed that tells
-for unit in 'degrees 57.29577951 theta_m_deg=COLUMN' 'counts 1303.797 theta_m=COLUMN/COUNTS_OF_A_TURN' 'electrical 7 theta_e_rad=COLUMN'; do
+for unit in 'degrees 57.29577951 theta_m_deg=theta_m_rad' 'counts 1303.797 theta_m=theta_m_rad/COUNTS_OF_A_TURN' 'electrical 7 theta_e_rad=theta_m_rad'; do
     set -- $unit
     crawl "$1.csv" "x * $2" i
     cut -d, -f1,2,4 "$1.csv" >fast.csv
     run 1 tune fast.csv --pole-pairs 7 --kv 100 --slots 12 -o fast
-    says '^not enough in the logs: By its angle the shaft turns at [0-9.e+]* rpm' "column $3"
+    says '^not enough in the logs: By its angle the shaft turns at [0-9.e+]* rpm' "column '$3'"
     check "a table over $1" [ ! -e fast/table ]
     rm -rf fast
 done

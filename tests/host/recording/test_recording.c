@@ -644,7 +644,8 @@ static void test_lists_are_relative_to_themselves(void)
     hci_runs_release(&runs);
     refused_list("file,role\n../run.csv,train\n", "`fit` or `holdout`");
     refused_list("file,role\n../run.csv,fit\n../run.csv,holdout\n", "each file once");
-    refused_list("file,role\n../none.csv,fit\n", "none.csv: cannot be read");
+    refused_list("file,role\n../none.csv,fit\n",
+                 "found `../none.csv`, expected a recording that can be read");
     refused_list("file,role\n", "found no run");
     refused_list("file\n../run.csv\n", "`role`");
     unlink(list_path);
