@@ -125,8 +125,10 @@ static void cover_words(const hci_run *r, char *text, size_t size)
     const cli_tune_cover x = cli_tune_cover_of(r);
     text[0] = '\0';
     if (!(x.samples_a_turn > 0.0)) return;
-    snprintf(text, size, ", %.3g turns, %.*f samples a turn, which tell orders up to %.3g", x.turns,
-             x.samples_a_turn < 10.0 ? 1 : 0, x.samples_a_turn, x.highest_order);
+    char samples[24];
+    snprintf(samples, sizeof samples, x.samples_a_turn < 100.0 ? "%.3g" : "%.0f", x.samples_a_turn);
+    snprintf(text, size, ", %.3g turns, %s samples a turn, which tell orders up to %.3g", x.turns, samples,
+             x.highest_order);
 }
 
 /* "log.csv: 9000 samples, 12.3 s, 10 turns, ...; torque as measured; currents up to 3.2 A" */
