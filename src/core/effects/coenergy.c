@@ -76,34 +76,19 @@ static size_t new_wave(hci_coenergy *w, double order)
     return at;
 }
 
-/* Place of the oscillation of an order. Monomials have the same orders one after the other. */
-static size_t wave_at(hci_coenergy *w, double order)
+/* Monomials have the same orders one after the other. */
+size_t hci_coenergy_wave_at(hci_coenergy *w, double order)
 {
-    size_t at = w->next;
-    if (at >= w->waves || w->wave[at].order != order) {
-        at = 0;
-        while (at < w->waves && w->wave[at].order != order)
-            ++at;
-        if (at == w->waves) at = new_wave(w, order);
-    }
-    w->next = at + 1 < w->waves ? at + 1 : 0;
-    return at;
+    size_t at = 0;
+    while (at < w->waves && w->wave[at].order != order)
+        ++at;
+    return at < w->waves ? at : new_wave(w, order);
 }
 
-double hci_coenergy_add(hci_coenergy *w, int a, int b, bool cosine, double order, double c)
+void hci_coenergy_go_on(hci_coenergy *w, int a, int b)
 {
-    const size_t at = wave_at(w, order);
-    const double k = w->wave[at].periods;
-    const double f = cosine ? w->wave[at].cosine : w->wave[at].sine;
-    const double slope = cosine ? -k * w->wave[at].sine : k * w->wave[at].cosine;
-    if (w->monomial.d != a || w->monomial.q != b) {
-        close_monomial(w);
-        open_monomial(w, a, b);
-    }
-    w->monomial.value += c * f;
-    w->monomial.slope += c * slope;
-    w->monomial.curvature -= c * k * k * f;
-    return slope * w->monomial.g + w->pole_pairs * f * w->monomial.rg;
+    close_monomial(w);
+    open_monomial(w, a, b);
 }
 
 /* ∂i_d/∂i_s = −⅔ cos(θ − 2πs/3), ∂i_q/∂i_s = ⅔ sin(θ − 2πs/3) */

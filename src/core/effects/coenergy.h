@@ -52,8 +52,27 @@ typedef struct {
 /* unit_A: the current in which the polynomials are meant. The zero sequence has no part in it. */
 void hci_coenergy_begin(hci_coenergy *w, int pole_pairs, const hci_sample *truth, double unit_A);
 
+/* Place of the oscillation of an order, wherever it is. */
+size_t hci_coenergy_wave_at(hci_coenergy *w, double order);
+
+/* From the last monomial to another one. */
+void hci_coenergy_go_on(hci_coenergy *w, int a, int b);
+
 /* Adds c f g with a, b >= 0 and a + b <= HCI_COENERGY_DEGREE; returns its torque for c = 1. */
-double hci_coenergy_add(hci_coenergy *w, int a, int b, bool cosine, double order, double c);
+static inline double hci_coenergy_add(hci_coenergy *w, int a, int b, bool cosine, double order, double c)
+{
+    const bool is_next = w->next < w->waves && w->wave[w->next].order == order;
+    const size_t at = is_next ? w->next : hci_coenergy_wave_at(w, order);
+    const double k = w->wave[at].periods;
+    const double f = cosine ? w->wave[at].cosine : w->wave[at].sine;
+    const double slope = cosine ? -k * w->wave[at].sine : k * w->wave[at].cosine;
+    w->next = at + 1 < w->waves ? at + 1 : 0;
+    if (w->monomial.d != a || w->monomial.q != b) hci_coenergy_go_on(w, a, b);
+    w->monomial.value += c * f;
+    w->monomial.slope += c * slope;
+    w->monomial.curvature -= c * k * k * f;
+    return slope * w->monomial.g + w->pole_pairs * f * w->monomial.rg;
+}
 
 /* Adds torque, its derivatives and ∂²W'/∂i² to *sum. */
 void hci_coenergy_end(hci_coenergy *w, hci_effect_torque *sum);

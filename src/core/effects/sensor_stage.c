@@ -8,18 +8,31 @@ enum { LEAST_PARTS = 4, MOST_PARTS = 12 }; /* of a step between samples */
 #define UNEVEN       0.1  /* of a step, that the next one may be longer or shorter */
 #define SAME_STEP    1e-6 /* of a step, by which another one differs and is the same */
 
-double hci_stage_step(const hci_sensor_stage *s, hci_stage_state *m, double step_s, double input)
+hci_stage_part hci_stage_part_of(const hci_sensor_stage *s, double step_s)
 {
-    const double g = 0.5 * step_s, both = m->input + input;
-    if (s->omega > 0.0) {
-        const double square = s->omega * s->omega, loss = 2.0 * s->damping * s->omega * g + square * g * g;
-        const double v = (m->v * (1.0 - loss) + g * square * (both - 2.0 * m->y)) / (1.0 + loss);
-        m->y += g * (m->v + v);
+    const double g = 0.5 * step_s, square = s->omega * s->omega;
+    if (!(s->omega > 0.0)) return (hci_stage_part){g, g, s->tau_s - g, s->tau_s + g, false};
+    const double loss = 2.0 * s->damping * s->omega * g + square * g * g;
+    return (hci_stage_part){g, g * square, 1.0 - loss, 1.0 + loss, true};
+}
+
+void hci_stage_go_on(const hci_stage_part *p, hci_stage_state *m, double input)
+{
+    const double both = m->input + input;
+    if (p->swings) {
+        const double v = (m->v * p->kept + p->of_input * (both - 2.0 * m->y)) / p->divisor;
+        m->y += p->g * (m->v + v);
         m->v = v;
     } else {
-        m->y = (m->y * (s->tau_s - g) + g * both) / (s->tau_s + g);
+        m->y = (m->y * p->kept + p->of_input * both) / p->divisor;
     }
     m->input = input;
+}
+
+double hci_stage_step(const hci_sensor_stage *s, hci_stage_state *m, double step_s, double input)
+{
+    const hci_stage_part p = hci_stage_part_of(s, step_s);
+    hci_stage_go_on(&p, m, input);
     return m->y;
 }
 
@@ -146,6 +159,34 @@ static inline void columns_pass(const passage *p, columns *restrict m, double *r
     }
 }
 
+/* A lag has no v. */
+static inline void columns_lag(const passage *p, columns *restrict m, double *restrict row,
+                               const double *restrict next, size_t width)
+{
+    for (size_t j = 0; j < width; ++j) {
+        const double to = row[j];
+        m->y[j] = p->y[0] * m->y[j] + p->y[2] * m->before[j] + p->y[3] * m->from[j] + p->y[4] * to +
+                  p->y[5] * next[j];
+        m->before[j] = m->from[j];
+        m->from[j] = to;
+        row[j] = m->y[j];
+    }
+}
+
+/* The width is told to the compiler where it is the usual one. */
+static void columns_go_on(const hci_sensor_stage *s, const passage *p, columns *m, double *row,
+                          const double *next, size_t width)
+{
+    if (s->omega > 0.0 && width == WIDTH)
+        columns_pass(p, m, row, next, WIDTH);
+    else if (s->omega > 0.0)
+        columns_pass(p, m, row, next, width);
+    else if (width == WIDTH)
+        columns_lag(p, m, row, next, WIDTH);
+    else
+        columns_lag(p, m, row, next, width);
+}
+
 static void filter_columns(const hci_sensor_stage *s, const hci_effect_run *run, double *x, size_t stride,
                            size_t width)
 {
@@ -161,11 +202,7 @@ static void filter_columns(const hci_sensor_stage *s, const hci_effect_run *run,
         }
         const bool even = hci_stage_is_even(run->time_s, run->count, k);
         passage_find(s, step_s, even, &p);
-        const double *next = even ? row + stride : NONE;
-        if (width == WIDTH)
-            columns_pass(&p, &m, row, next, WIDTH);
-        else
-            columns_pass(&p, &m, row, next, width);
+        columns_go_on(s, &p, &m, row, even ? row + stride : NONE, width);
     }
 }
 

@@ -20,6 +20,16 @@ typedef struct {
     double before, from, to, after;
 } hci_stage_inputs;
 
+/* A trapezoid, which is the same for all states that make it: half its duration, what of the inputs and of
+ * the state goes into the next one, and what that is divided by. */
+typedef struct {
+    double g, of_input, kept, divisor;
+    bool swings; /* a resonance */
+} hci_stage_part;
+
+hci_stage_part hci_stage_part_of(const hci_sensor_stage *s, double step_s);
+void hci_stage_go_on(const hci_stage_part *part, hci_stage_state *m, double input);
+
 /* One trapezoid; returns y. */
 double hci_stage_step(const hci_sensor_stage *s, hci_stage_state *m, double step_s, double input);
 

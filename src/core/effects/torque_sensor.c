@@ -51,33 +51,46 @@ static size_t stages_of(const hci_effect *effect, hci_sensor_stage stages[2])
 
 /* ---- along a run ---- */
 
-/* The input that makes the stage answer with ∂y/∂parameter. */
+/* The input that makes the stage answer with ∂y/∂parameter, of one that it has. */
 static double input_for(const hci_sensor_stage *s, const hci_stage_state *m, size_t parameter)
 {
     const double error = m->input - m->y;
-    if (s->omega > 0.0) {
-        if (parameter == DAMPING) return -2.0 * m->v / s->omega;
-        if (parameter == NATURAL_FREQUENCY)
-            return 4.0 * HCI_PI * (error * s->omega - s->damping * m->v) / (s->omega * s->omega);
-    } else if (parameter == TIME_CONSTANT) {
-        return -error / s->tau_s;
-    }
-    return 0.0;
+    if (parameter == TIME_CONSTANT) return -error / s->tau_s;
+    if (parameter == DAMPING) return -2.0 * m->v / s->omega;
+    return 4.0 * HCI_PI * (error * s->omega - s->damping * m->v) / (s->omega * s->omega);
 }
 
 /* ---- the torque, with the derivatives by what the stage does ---- */
 
+enum { OWN = sizeof PARAMETER / sizeof *PARAMETER };
+
 /* What the stage answers with to its own parameters: the same filter with another input, step by step. */
 typedef struct {
-    const hci_effect *effect;
-    hci_stage_state state[sizeof PARAMETER / sizeof *PARAMETER]; /* of each term */
+    size_t count;
+    size_t term[OWN], parameter[OWN];
+    hci_stage_state state[OWN];
 } own_answers;
 
-static void part(const hci_sensor_stage *s, double step_s, double input, hci_stage_state *m, own_answers *own)
+/* Those that the stage has. */
+static void answers_find(const hci_effect *effect, const hci_sensor_stage *s, own_answers *own)
 {
-    hci_stage_step(s, m, step_s, input);
-    for (size_t j = 0; j < own->effect->count; ++j)
-        hci_stage_step(s, &own->state[j], step_s, input_for(s, m, own->effect->term[j].parameter));
+    *own = (own_answers){.count = 0};
+    for (size_t j = 0; j < effect->count; ++j) {
+        const size_t parameter = effect->term[j].parameter;
+        const bool has = s->omega > 0.0 ? parameter == DAMPING || parameter == NATURAL_FREQUENCY
+                                        : parameter == TIME_CONSTANT;
+        if (!has) continue;
+        own->term[own->count] = j;
+        own->parameter[own->count++] = parameter;
+    }
+}
+
+static void go_on(const hci_sensor_stage *s, const hci_stage_part *part, double input, hci_stage_state *m,
+                  own_answers *own)
+{
+    hci_stage_go_on(part, m, input);
+    for (size_t j = 0; j < own->count; ++j)
+        hci_stage_go_on(part, &own->state[j], input_for(s, m, own->parameter[j]));
 }
 
 /* Sample k. before: in and out, the input of the sample before the last one. */
@@ -88,10 +101,10 @@ static void answer(const hci_sensor_stage *s, const hci_effect_run *run, size_t 
     const bool even = hci_stage_is_even(run->time_s, run->count, k);
     const hci_stage_inputs x = {*before, m->input, to, even ? run->torque_Nm[k + 1] : 0.0};
     const size_t parts = step_s >= 0.0 ? hci_stage_parts(s, step_s) : 0;
+    const hci_stage_part part = hci_stage_part_of(s, step_s / (double)(parts > 0 ? parts : 1));
     *before = x.from;
     for (size_t j = 1; j <= parts; ++j)
-        part(s, step_s / (double)parts,
-             j < parts ? hci_stage_input_at(even, &x, (double)j / (double)parts) : to, m, own);
+        go_on(s, &part, j < parts ? hci_stage_input_at(even, &x, (double)j / (double)parts) : to, m, own);
     if (parts == 0) {
         *m = (hci_stage_state){to, to, 0.0};
         memset(own->state, 0, sizeof own->state);
@@ -102,12 +115,13 @@ static void answer(const hci_sensor_stage *s, const hci_effect_run *run, size_t 
 static void derivatives_add(const hci_effect *effect, const hci_sensor_stage *s, const hci_effect_run *run)
 {
     hci_stage_state m = {0.0, 0.0, 0.0};
-    own_answers own = {effect, {{0.0, 0.0, 0.0}}};
+    own_answers own;
     double before = 0.0;
+    answers_find(effect, s, &own);
     for (size_t k = 0; k < run->count; ++k) {
         answer(s, run, k, &before, &m, &own);
-        for (size_t j = 0; j < effect->count; ++j)
-            run->by_value[k * run->columns + run->own_column + j] += own.state[j].y;
+        for (size_t j = 0; j < own.count; ++j)
+            run->by_value[k * run->columns + run->own_column + own.term[j]] += own.state[j].y;
     }
 }
 

@@ -39,6 +39,19 @@ static inline void hci_vector_add(size_t n, double t, const double *restrict x, 
         y[i] += t * x[i];
 }
 
+/* y += t_0 x_0 + t_1 x_1 + t_2 x_2 + t_3 x_3, one after the other: what is loaded of y is used four times. */
+static inline void hci_vector_add_four(size_t n, const double t[4], const double *const x[4],
+                                       double *restrict y)
+{
+    const double *restrict a = x[0], *restrict b = x[1], *restrict c = x[2], *restrict d = x[3];
+    const size_t whole = n - n % HCI_LANES;
+    for (size_t i = 0; i < whole; i += HCI_LANES)
+        for (size_t r = 0; r < HCI_LANES; r++)
+            y[i + r] = (((y[i + r] + t[0] * a[i + r]) + t[1] * b[i + r]) + t[2] * c[i + r]) + t[3] * d[i + r];
+    for (size_t i = whole; i < n; i++)
+        y[i] = (((y[i] + t[0] * a[i]) + t[1] * b[i]) + t[2] * c[i]) + t[3] * d[i];
+}
+
 /* Σ|x| */
 static inline double hci_vector_norm_1(size_t n, const double *x)
 {

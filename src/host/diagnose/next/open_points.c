@@ -163,6 +163,15 @@ static double chi_square_of(const differing *x, const hci_playable *playable, do
     return HCI_LEAST_TURNS * turn * spread_Nm * spread_Nm / (playable->noise_Nm * playable->noise_Nm);
 }
 
+/* The first of the points up to one that has its currents. */
+static size_t same_currents(const hci_operating_point *point, size_t at)
+{
+    size_t k = 0;
+    while (k < at && (point[k].id_A != point[at].id_A || point[k].iq_A != point[at].iq_A))
+        ++k;
+    return k;
+}
+
 /* The point that tells most, which is one of a large current; of points alike the slow one forward. */
 static bool choose(const differing *x, const hci_playable *playable, hci_open_point *out)
 {
@@ -170,12 +179,14 @@ static bool choose(const differing *x, const hci_playable *playable, hci_open_po
     const size_t count = hci_operating_points(playable, point);
     const double least_Nm = MUCH_MORE * spread_recorded(x);
     *out = (hci_open_point){.chi_square = HCI_TELLS};
+    double spread_Nm[HCI_OPERATING_POINTS];
     bool any = false;
     for (size_t k = 0; k < count; ++k) {
-        const double spread_Nm = spread_at(x, point[k].id_A, point[k].iq_A);
-        const double chi_square = chi_square_of(x, playable, spread_Nm);
-        if (!(spread_Nm > least_Nm && chi_square > (1.0 + 1e-9) * out->chi_square)) continue;
-        *out = (hci_open_point){.point = k, .spread_Nm = spread_Nm, .chi_square = chi_square};
+        const size_t same = same_currents(point, k);
+        spread_Nm[k] = same < k ? spread_Nm[same] : spread_at(x, point[k].id_A, point[k].iq_A);
+        const double chi_square = chi_square_of(x, playable, spread_Nm[k]);
+        if (!(spread_Nm[k] > least_Nm && chi_square > (1.0 + 1e-9) * out->chi_square)) continue;
+        *out = (hci_open_point){.point = k, .spread_Nm = spread_Nm[k], .chi_square = chi_square};
         any = true;
     }
     if (any) spread_at(x, point[out->point].id_A, point[out->point].iq_A);
