@@ -227,6 +227,7 @@ static void segment_add(filling *f, const hci_segment *s, hci_predicted_reading 
     hci_predicted_reading_fill(f->regression, &f->plan.list, s, predicted);
     const double n = (double)f->model->columns;
     hci_regression_count(f->regression, predicted->asked, hci_effects_terms(&f->model->list));
+    hci_regression_count_filtered(f->regression, predicted->filtered, predicted->terms);
     hci_regression_count_products(f->regression, 0.5 * n * n * (double)s->count);
     torque_rows(f, s, predicted);
     rows_add(f, s);

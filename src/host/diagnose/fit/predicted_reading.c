@@ -91,6 +91,18 @@ static size_t longest_run_through(const hci_regression *e, bool dynamic)
     return most;
 }
 
+/* Lags and resonances that there are. */
+static size_t stages_in(const hci_effects *effects)
+{
+    size_t stages = 0;
+    for (size_t k = 0; k < effects->count; ++k) {
+        const hci_effect *e = &effects->effect[k];
+        stages += e->type->lag && hci_effect_value(e, e->type->lag[0]) > 0.0;
+        stages += e->type->resonance && hci_effect_value(e, e->type->resonance[0]) > 0.0;
+    }
+    return stages;
+}
+
 double hci_settling_s(const hci_effects *effects)
 {
     double sum_s = 0.0;
@@ -505,6 +517,7 @@ void hci_predicted_reading_fill(const hci_regression *e, const hci_effects *effe
         turns_before(o, s->count, lead, s->period_s);
     } else if (dynamic)
         lead = lead_in(e, s, o);
+    o->filtered = dynamic ? stages_in(effects) * (lead + s->count) : 0;
     if (dynamic) hci_effects_filter(effects, o->time_s, lead + s->count, o->torque_Nm, o->by_value);
     if (is_slope(e, s) && !o->instant) average(e, s, turns * s->count, of_steps, o);
     if (lead > 0) turn_keep(o, s->count, lead);
@@ -541,6 +554,7 @@ hci_status hci_regression_residual(const hci_regression *e, const hci_effects *e
     for (const hci_segment *s = NULL; (s = hci_regression_next(e, s)) != NULL;) {
         hci_predicted_reading_fill(e, effects, s, &predicted);
         hci_regression_count(e, predicted.asked, predicted.terms);
+        hci_regression_count_filtered(e, predicted.filtered, 0);
         const hci_binned_sample *sample = e->samples->sample + s->first;
         residual_fill(sample, s->count, &predicted, residual_Nm + s->first);
         if (hci_regression_mean_is_free(e, s)) take_mean_out(sample, residual_Nm + s->first, s->count);

@@ -40,7 +40,8 @@ typedef struct {
     bool instant; /* wanted as it is at each sample, not as a slope shows it */
     bool apart;   /* wanted: derivatives at a scale of the current's torque that stays as it is */
     size_t terms;
-    size_t asked;         /* out: samples and places between them that the model was asked at, of a segment */
+    size_t asked;    /* out: samples and places between them that the model was asked at, of a segment */
+    size_t filtered; /* out: samples that went through a stage of a torque sensor, those before included */
     double holding_scale; /* of torques that stand for a current: declared over modelled torque per ampere */
     double *current_Nm;   /* [samples], what a current makes of torque_Nm where its scale is no value of the
                            * rows: of a shaft that hardly accelerates; NULL: no such run is in use */

@@ -61,6 +61,16 @@ void hci_regression_count(const hci_regression *e, size_t samples, size_t terms)
     hci_regression_count_products(e, (double)samples * (OF_SAMPLE + OF_TERM * (double)terms));
 }
 
+/* The same of a stage of a sensor: of each column, and of what it answers with to its own parameters. */
+#define OF_COLUMN 60.0
+#define OF_STAGE  6000.0
+
+void hci_regression_count_filtered(const hci_regression *e, size_t samples, size_t columns)
+{
+    const double own = columns > 0 ? OF_STAGE : 0.0;
+    hci_regression_count_products(e, (double)samples * (own + OF_COLUMN * (double)(columns + 1)));
+}
+
 void hci_regression_count_products(const hci_regression *e, double products)
 {
     if (e->work) *e->work += products;

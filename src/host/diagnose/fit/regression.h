@@ -32,7 +32,7 @@ typedef struct {
 } hci_regression;
 
 /* Work that a search may take; beyond it the best model so far is kept, and fits end after a few steps. */
-#define HCI_MOST_WORK 7.5e10
+#define HCI_MOST_WORK 6.5e10
 
 /* The segment of a run in use that follows `after` (NULL: the first one); NULL behind the last. */
 const hci_segment *hci_regression_next(const hci_regression *regression, const hci_segment *after);
@@ -50,6 +50,10 @@ hci_status hci_regression_each_run(hci_regression *regression,
 
 /* Adds the multiplications of predicting so many samples of a model, about. */
 void hci_regression_count(const hci_regression *regression, size_t samples, size_t terms);
+
+/* Adds those of so many samples through a stage of a torque sensor, with columns of derivatives beside the
+ * torque. */
+void hci_regression_count_filtered(const hci_regression *regression, size_t samples, size_t columns);
 
 /* Adds multiplications of anything else. */
 void hci_regression_count_products(const hci_regression *regression, double products);

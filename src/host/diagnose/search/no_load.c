@@ -146,6 +146,19 @@ static hci_status of_runs(hci_search *s, hci_attribution *a, hci_note *note)
     return status;
 }
 
+#define KEPT 0.5 /* of what the search may still take, for all runs */
+
+/* What was not looked at to the end proves nothing, and all runs are looked at yet. */
+static void unfinished_leave(hci_search *s, hci_attribution *a)
+{
+    s->kept_work = 0.0;
+    if (s->ended != HCI_WORK_LIMITED) return;
+    s->ended = HCI_WORK_COMPLETE;
+    hci_fitted_model_release(&a->model);
+    hci_fitted_model_release(&a->no_load);
+    a->slip = NULL;
+}
+
 hci_status hci_search_no_load(hci_search *s, bool *use, hci_attribution *a, hci_note *note)
 {
     hci_regression *e = s->regression;
@@ -153,7 +166,9 @@ hci_status hci_search_no_load(hci_search *s, bool *use, hci_attribution *a, hci_
     hci_status status = HCI_OK;
     if (runs_find(e, use) == 0) return HCI_OK;
     e->use = use;
+    if (e->work) s->kept_work = KEPT * fmax(0.0, HCI_MOST_WORK - *e->work);
     status = of_runs(s, a, note);
+    if (!status) unfinished_leave(s, a);
     e->use = all;
     return status;
 }

@@ -22,7 +22,8 @@
 bool hci_search_is_over(hci_search *s)
 {
     const double *work = s->regression->work;
-    if (!hci_search_is_interrupted(s) && s->ended == HCI_WORK_COMPLETE && work && *work > HCI_MOST_WORK)
+    if (!hci_search_is_interrupted(s) && s->ended == HCI_WORK_COMPLETE && work &&
+        *work > HCI_MOST_WORK - s->kept_work)
         s->ended = HCI_WORK_LIMITED;
     return s->ended != HCI_WORK_COMPLETE;
 }

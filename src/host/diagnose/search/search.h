@@ -36,6 +36,7 @@ typedef struct {
     bool whole_coenergy;              /* all terms of the co-energy are in, each with an expectation */
     const char *doing;
     double share, until; /* of all work: done so far, and when the step at hand is done */
+    double kept_work;    /* of HCI_MOST_WORK, that is left for what follows */
     hci_work_end ended;  /* HCI_WORK_COMPLETE until something makes it end early */
 } hci_search;
 

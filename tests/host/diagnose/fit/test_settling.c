@@ -1,5 +1,6 @@
 /* The mean of a steady turn behind a slow sensor is that of a sensor that has settled, from its first sample
  * on: closed form of a lag and of a resonance at one order. */
+#include "host/diagnose/fit/linearise.h"
 #include "host/diagnose/fit/predicted_reading.h"
 
 #include "support/searching.h"
@@ -82,6 +83,32 @@ static void test_it_has_settled(void)
         tearDown();
         setUp();
     }
+}
+
+/* What linearising the model takes, in multiplications. */
+static double work_of(double tau_s)
+{
+    hci_normal_equations normal;
+    record_settled(1.0, answer_of(tau_s, 0.0, 0.05));
+    search_start();
+    model_add("cogging", "sine", "cosine", ORDER);
+    model_add("torque_sensor", "time_constant", NULL, 0.0);
+    model.candidates.candidate[1].term[0].value = tau_s;
+    const double before = dataset.work;
+    TEST_ASSERT_EQUAL_INT(HCI_OK,
+                          hci_regression_normal(search.regression, &model.candidates, true, &normal, &note));
+    hci_normal_equations_release(&normal);
+    return dataset.work - before;
+}
+
+/* Three turns before the one that is read go through it too, and both it and its derivative in parts. */
+static void test_a_slow_sensor_is_work(void)
+{
+    const double quick = work_of(0.0);
+    tearDown();
+    setUp();
+    const double slow = work_of(0.015);
+    TEST_ASSERT_TRUE(slow > quick + 4.0 * (double)dataset.samples.count * 3000.0);
 }
 
 /* A declared lag acts where the samples of a turn are too few to smooth its currents: 200 of them. */
@@ -174,6 +201,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_samples_of_that_time);
     RUN_TEST(test_it_has_settled);
+    RUN_TEST(test_a_slow_sensor_is_work);
     RUN_TEST(test_a_declared_lag_acts_everywhere);
     RUN_TEST(test_uneven_samples_have_settled);
     RUN_TEST(test_how_long_it_takes);

@@ -63,6 +63,24 @@ static void test_they_show_their_effects(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.002, 0.05, term_in(&a.model.candidates, "cogging", "sine", 6.0)->value);
 }
 
+/* All that may still be done is not spent on them: what was not looked at to the end is forgotten. */
+static void test_something_is_left_for_all_runs(void)
+{
+    record_idle(0.0);
+    record_loads(3);
+    search_start();
+    const double before = dataset.work;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_no_load(&search, idle, &a, &note));
+    const double taken = dataset.work - before;
+    hci_attribution_release(&a);
+    dataset.work = HCI_MOST_WORK - 1.2 * taken;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_no_load(&search, idle, &a, &note));
+    TEST_ASSERT_FALSE(hci_search_is_over(&search));
+    TEST_ASSERT_EQUAL_INT(HCI_WORK_COMPLETE, search.ended);
+    TEST_ASSERT_TRUE(dataset.work < HCI_MOST_WORK - 0.3 * taken);
+    TEST_ASSERT_EQUAL_UINT64(0, hci_candidates_types_in(&a.no_load.candidates));
+}
+
 /* A second from 5 to 65 rad/s, there and back, against friction: the torque that accelerates an inertia is
  * the same. */
 static void record_ramps(void)
@@ -213,6 +231,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_they_show_their_effects);
+    RUN_TEST(test_something_is_left_for_all_runs);
     RUN_TEST(test_what_they_do_not_tell_is_left_to_all);
     RUN_TEST(test_what_is_no_noise_shows_nothing);
     RUN_TEST(test_as_many_values_as_runs_prove_nothing);
