@@ -20,16 +20,20 @@ enum {
     OF_PERIOD = 180,      /* of them, for each electrical period in it, that are left where they are joined */
     MOST_JOINED = 4,
     LEAST_TURNS = 3,    /* for such a mean */
+    LEAST_SPARSE = 8,   /* turns that show between the samples of one what those of the others do */
     LEAST_OF_SLOPE = 2, /* samples */
     MOST_OPEN = 8,      /* segments of samples as they are, for each run */
     CREEPING_PIECES = 4 /* means of one steady run whose torque creeps */
 };
+
+#define PER_PERIOD 4.0 /* samples of the finest order, with which a sensor can be followed */
 
 /* One run on its way into the samples. */
 typedef struct {
     const hci_run *run;
     size_t index; /* in the list of runs */
     int pole_pairs;
+    double finest_order;     /* of the declared cogging torque, in periods of a mechanical turn */
     double holding_Nm_per_A; /* in a holding test, where the current of the q axis is what was measured; else
                                 0 */
     const hci_run_statistics *statistics;
@@ -338,6 +342,22 @@ static bool turns_reduce(const reduction *x, const hci_turn *turns, size_t count
     return (open > 0 && rest <= HCI_LONGEST_SEGMENT) || open_segments(x, open, rest);
 }
 
+/* Whether all turns are alike, and have so few samples that what is between two of them is seen in other
+ * turns only: a sensor that is slow cannot be followed from sample to sample then. */
+static bool is_sparse(const reduction *x, const hci_turn *turns, size_t count)
+{
+    const hci_run *r = x->run;
+    size_t first = 0, last = count;
+    if (r->torque_source != HCI_TORQUE_MEASURED || !r->time_s || !r->turn_known) return false;
+    while (first < count && !turns[first].whole)
+        ++first;
+    while (last > first && !turns[last - 1].whole)
+        --last;
+    if (last - first < LEAST_SPARSE || alike_end(x, turns, last, first) < last) return false;
+    const double of_turn = (double)(behind(&turns[last - 1]) - turns[first].first) / (double)(last - first);
+    return of_turn < PER_PERIOD * x->finest_order;
+}
+
 static bool any_creeps(const reduction *x, const hci_turn *turns, size_t count)
 {
     for (size_t k = 0, next; k < count; k = next) {
@@ -354,7 +374,7 @@ static bool run_reduce(const reduction *x)
     if (x->run->only_mean) return open_segment(x, 0, x->run->count);
     bool done = hci_turns_find(x->run, x->pole_pairs, &turns, &count);
     if (done) x->samples->statistics[x->index].creeps = any_creeps(x, turns, count);
-    if (done && x->run->count <= HCI_LONGEST_SEGMENT)
+    if (done && x->run->count <= HCI_LONGEST_SEGMENT && !is_sparse(x, turns, count))
         done = open_segment(x, 0, x->run->count);
     else if (done && hci_turns_swing(x->run, x->statistics, turns, count))
         done = open_segments(x, 0, x->run->count);
@@ -390,6 +410,14 @@ static bool run_fill(const hci_run *run, hci_run_statistics *statistics, bool *a
     return true;
 }
 
+static double finest_order(const hci_machine *machine)
+{
+    double finest = 0.0;
+    for (size_t k = 0; k < machine->cogging_count; ++k)
+        finest = fmax(finest, machine->cogging[k].order);
+    return finest * machine->pole_pairs;
+}
+
 /* Adds run k. False when memory is out. */
 static bool run_add(const hci_machine *machine, const hci_run *run, size_t k, hci_binned_samples *samples,
                     size_t *capacity)
@@ -402,6 +430,7 @@ static bool run_add(const hci_machine *machine, const hci_run *run, size_t k, hc
     const reduction x = {run,
                          k,
                          machine->pole_pairs,
+                         finest_order(machine),
                          holds ? hci_torque_constant(machine, &none) : 0.0,
                          statistics,
                          acceleration,

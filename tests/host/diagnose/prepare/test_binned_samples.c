@@ -28,12 +28,17 @@ void tearDown(void)
     rec_release(&run);
 }
 
-static void reduce(void)
+static void reduce_of(const hci_machine *machine)
 {
     hci_note note = {{0}};
     hci_binned_samples_release(&binned);
-    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_binned_samples_make(&MACHINE, NAN, &run, 1, &binned, &note),
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_binned_samples_make(machine, NAN, &run, 1, &binned, &note),
                                   note.text);
+}
+
+static void reduce(void)
+{
+    reduce_of(&MACHINE);
 }
 
 static double torque_at(double theta_m)
@@ -103,6 +108,27 @@ static void test_turns_become_one_mean(void)
         TEST_ASSERT_EQUAL_UINT64(1024, binned.count);
         TEST_ASSERT_EQUAL_DOUBLE(4.0, binned.segment[0].joined);
     }
+}
+
+/* Short recordings stay as they are, unless a turn has too few samples for the declared cogging torque, 18
+ * periods of it: then what is between them stands in other turns. */
+static void test_sparse_turns_become_one_mean(void)
+{
+    hci_harmonic sixth = {6.0, 0.2, 0.0};
+    const hci_machine cogs = {.pole_pairs = P, .cogging = &sixth, .cogging_count = 1};
+    turn_steadily(20.0, 40.3, 50.0);
+    reduce_of(&cogs);
+    TEST_ASSERT_EQUAL_UINT64(1, binned.segment_count);
+    TEST_ASSERT_DOUBLE_WITHIN(1.0, 20.0, (double)binned.segment[0].turns);
+    TEST_ASSERT_TRUE(binned.count > 300);
+    reduce(); /* no cogging torque */
+    TEST_ASSERT_EQUAL_UINT64(0, binned.segment[0].turns);
+    turn_steadily(20.0, 100.3, 50.0);
+    reduce_of(&cogs);
+    TEST_ASSERT_EQUAL_UINT64(0, binned.segment[0].turns);
+    turn_steadily(5.0, 40.3, 50.0); /* too few turns to see it in */
+    reduce_of(&cogs);
+    TEST_ASSERT_EQUAL_UINT64(0, binned.segment[0].turns);
 }
 
 /* A steep ripple is no scatter of the samples that are at about the same angle. */
@@ -354,6 +380,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_turns_become_one_mean);
+    RUN_TEST(test_sparse_turns_become_one_mean);
     RUN_TEST(test_a_steep_torque_does_not_scatter);
     RUN_TEST(test_turns_of_a_wrapped_electrical_angle);
     RUN_TEST(test_other_columns_of_a_mean);
