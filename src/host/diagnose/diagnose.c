@@ -241,6 +241,31 @@ static hci_status established_leave(hci_dataset *b, const hci_runs *runs, hci_at
     return withdraw(b, runs, a, d, true, note);
 }
 
+static hci_status type_leaves(hci_dataset *b, hci_attribution *a, const hci_effect_type *type, hci_note *note)
+{
+    hci_candidates *model = &a->model.candidates;
+    hci_candidates_remove_type(model, type);
+    for (size_t r = 0; r < a->types; ++r)
+        if (a->verdict[r].type == type) a->verdict[r].in = false;
+    const hci_status status = hci_regression_fit(&b->regression, model, &a->model.fit, note);
+    return status ? status : hci_regression_standard_errors(&b->regression, model, note);
+}
+
+/* Beside something unknown a series in the currents, which describes anything a little, is certain only where
+ * it describes the runs held out. */
+static hci_status series_leave(hci_dataset *b, const hci_runs *runs, hci_attribution *a, hci_diagnosis *d,
+                               hci_note *note)
+{
+    const hci_effect_type *type = NULL;
+    hci_status status = hci_held_out_idle_series(b, runs, a, &type, note);
+    while (!status && type) {
+        status = type_leaves(b, a, type, note);
+        if (!status) status = refill(b, runs, a, d, note);
+        if (!status) status = hci_held_out_idle_series(b, runs, a, &type, note);
+    }
+    return status;
+}
+
 /* Beside something unknown effects are certain only where the runs held out are no worse for them. */
 static hci_status rising_leave(hci_dataset *b, const hci_runs *runs, hci_attribution *a, hci_diagnosis *d,
                                double resolution_Nm, hci_note *note)
@@ -292,16 +317,6 @@ static hci_status test(hci_dataset *b, const hci_runs *runs, hci_attribution *a,
     d->verdict = HCI_DIAGNOSIS_PARTLY;
     hci_uncertainty_release(&d->uncertainty);
     return HCI_OK;
-}
-
-static hci_status type_leaves(hci_dataset *b, hci_attribution *a, const hci_effect_type *type, hci_note *note)
-{
-    hci_candidates *model = &a->model.candidates;
-    hci_candidates_remove_type(model, type);
-    for (size_t r = 0; r < a->types; ++r)
-        if (a->verdict[r].type == type) a->verdict[r].in = false;
-    const hci_status status = hci_regression_fit(&b->regression, model, &a->model.fit, note);
-    return status ? status : hci_regression_standard_errors(&b->regression, model, note);
 }
 
 /* One that is not certain any more, now that others have left; NULL: none. */
@@ -381,6 +396,7 @@ static hci_status conclude(hci_dataset *b, const hci_machine_data *machine, cons
     hci_status status = HCI_OK;
     if (!a->unknown && d->verdict != HCI_DIAGNOSIS_COMPLETE)
         status = test(b, runs, a, d, resolution_Nm, note);
+    if (!status && a->unknown) status = series_leave(b, runs, a, d, note);
     if (!status && a->unknown) status = rising_leave(b, runs, a, d, resolution_Nm, note);
     if (!status && a->unknown) status = denied_leave(b, runs, a, d, note);
     if (!status && is_against_voltages(b, machine, runs, d)) {

@@ -276,10 +276,10 @@ static double samples_of(const hci_dataset *b, const hci_runs *runs)
     return count;
 }
 
-/* The same mean square without one type, all others fitted anew; 0 where the runs that were fitted do not
- * ask for it any more. */
+/* The same mean square without one type, all others fitted anew. asked: out, whether the runs that were
+ * fitted ask for it; may be NULL. */
 static hci_status square_refitted(hci_dataset *b, const hci_runs *runs, const hci_effect_type *type,
-                                  const hci_fitted_model *model, double *square, hci_note *note)
+                                  const hci_fitted_model *model, double *square, bool *asked, hci_note *note)
 {
     hci_candidates without = {0};
     hci_fit fit;
@@ -287,7 +287,7 @@ static hci_status square_refitted(hci_dataset *b, const hci_runs *runs, const hc
     if (!status) hci_candidates_remove_type(&without, type);
     if (!status) status = hci_regression_fit(&b->regression, &without, &fit, note);
     if (!status) status = square_without(b, runs, NULL, &without, square, note);
-    if (!status && fit.score < model->fit.score + HCI_DECISIVE) *square = 0.0;
+    if (asked) *asked = !status && !(fit.score < model->fit.score + HCI_DECISIVE);
     hci_candidates_release(&without);
     return status;
 }
@@ -295,6 +295,13 @@ static hci_status square_refitted(hci_dataset *b, const hci_runs *runs, const hc
 static double gain_of_all(const hci_attribution *a)
 {
     return a->before.score - a->model.fit.score;
+}
+
+/* Whether a type is found in none of the cases with one run left out: others of the co-energy take its place
+ * in each. */
+static bool is_never_found(const hci_verdict *v)
+{
+    return v->left_out > 0 && v->stays == 0;
 }
 
 hci_status hci_held_out_misleading(hci_dataset *b, const hci_runs *runs, const hci_attribution *a,
@@ -309,11 +316,30 @@ hci_status hci_held_out_misleading(hci_dataset *b, const hci_runs *runs, const h
     for (size_t r = 0; r < a->types && !status; ++r) {
         const hci_verdict *v = &a->verdict[r];
         if (!v->in || v->ambiguous || v->gain > SMALL * gain_of_all(a)) continue;
-        if (hci_candidates_are_of_whole(&a->model.candidates, v->type)) continue;
-        status = square_refitted(b, runs, v->type, &a->model, &without_Nm2, note);
+        const bool of_whole = hci_candidates_are_of_whole(&a->model.candidates, v->type);
+        if (of_whole && !is_never_found(v)) continue;
+        bool asked = true;
+        status = square_refitted(b, runs, v->type, &a->model, &without_Nm2, &asked, note);
+        if (!asked && !of_whole) without_Nm2 = 0.0;
         if (status || !(without_Nm2 < least_Nm2)) continue;
         least_Nm2 = without_Nm2;
         *type = v->type;
+    }
+    return status;
+}
+
+hci_status hci_held_out_idle_series(hci_dataset *b, const hci_runs *runs, const hci_attribution *a,
+                                    const hci_effect_type **type, hci_note *note)
+{
+    double with_Nm2 = 0.0, without_Nm2 = 0.0;
+    *type = NULL;
+    if (!(samples_of(b, runs) > 0.0)) return HCI_OK;
+    hci_status status = square_without(b, runs, NULL, &a->model.candidates, &with_Nm2, note);
+    for (size_t r = 0; r < a->types && !status && !*type; ++r) {
+        const hci_verdict *v = &a->verdict[r];
+        if (!v->in || v->established || !v->type->is_series) continue;
+        status = square_refitted(b, runs, v->type, &a->model, &without_Nm2, NULL, note);
+        if (!status && !(without_Nm2 > helps(v->type) * with_Nm2)) *type = v->type;
     }
     return status;
 }

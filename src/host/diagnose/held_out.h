@@ -37,6 +37,12 @@ bool hci_held_out_rises_both(const hci_dataset *b, const hci_runs *runs, const h
 hci_status hci_held_out_keep(hci_dataset *dataset, const hci_runs *runs, hci_candidates *model,
                              hci_note *note);
 
+/* A series in the currents without which, the others fitted anew, the error of these runs is less than twice
+ * as large; NULL: none, or no run was held out. HCI_ERROR_MEMORY. */
+hci_status hci_held_out_idle_series(hci_dataset *dataset, const hci_runs *runs,
+                                    const hci_attribution *attribution, const hci_effect_type **type,
+                                    hci_note *note);
+
 /* Of effects that explain little beside others the one without which, the others fitted anew, these runs are
  * described best, and better than with it by more than chance; before all others one that the runs that were
  * fitted do not ask for any more; NULL: none. HCI_ERROR_MEMORY. */

@@ -239,6 +239,41 @@ static void test_what_helps_is_kept(void)
     TEST_ASSERT_FALSE(is_kept("saturation", "d0q3_cosine", -6.0 * P));
 }
 
+/* The series in the currents that does not describe a run held out, whose ripple is given: of a saturation
+ * that describes 0.2 N·m in the runs that were fitted. */
+static const hci_effect_type *idle_series(double held_out_Nm)
+{
+    hci_attribution a = {.types = hci_candidate_types()};
+    const hci_effect_type *type = NULL;
+    for (size_t k = 0; k < 5; ++k) {
+        record(SAMPLES, &(point){60.0, 4.0, 0.0, 0.0, 0.0});
+        add_cogging(k, k < 4 ? 0.2 : held_out_Nm);
+    }
+    role[4] = HCI_ROLE_HOLDOUT;
+    search_start();
+    model_add("saturation", "d0q3_cosine", NULL, 6.0);
+    model.candidates.reference_current_A = 4.0;
+    model_fit();
+    for (size_t r = 0; r < a.types; ++r) {
+        a.verdict[r].type = hci_candidate_type(r);
+        a.verdict[r].in = hci_candidates_have(&model.candidates, hci_candidate_type(r));
+    }
+    a.model = model;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_held_out_idle_series(&dataset, &runs, &a, &type, &note));
+    search_end();
+    return type;
+}
+
+/* Twice as large without it, or more, the error has to be. */
+static void test_a_series_has_to_describe_what_is_held_out(void)
+{
+    TEST_ASSERT_NULL(idle_series(0.2));
+    tearDown();
+    setUp();
+    const hci_effect_type *idle = idle_series(0.11);
+    TEST_ASSERT_TRUE(idle && strcmp(idle->name, "saturation") == 0);
+}
+
 static hci_held_out_result judged(hci_diagnosis d)
 {
     const hci_dataset none = {0};
@@ -332,6 +367,7 @@ int main(void)
     RUN_TEST(test_ripple_of_fitted_runs_is_judged);
     RUN_TEST(test_faint_effects_leave_as_a_pair);
     RUN_TEST(test_what_helps_is_kept);
+    RUN_TEST(test_a_series_has_to_describe_what_is_held_out);
     RUN_TEST(test_what_rises_is_not_explained);
     RUN_TEST(test_equal_gains_are_not_told_from_magnets);
     RUN_TEST(test_a_torque_map_tells_reluctance);

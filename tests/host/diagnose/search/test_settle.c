@@ -96,6 +96,28 @@ static void test_means_of_noise_are_known(void)
     hci_attribution_release(&a);
 }
 
+/* Those of ten times the noise are not known, of a model that stands for a whole co-energy too. */
+static void test_means_that_no_law_predicts(void)
+{
+    static const double OFF_NM[] = {1.0, -1.0, -0.6, 1.1, 0.4, -0.9, -0.2, 0.8};
+    hci_attribution a = {.types = 0};
+    for (size_t r = 0; r < 8; ++r)
+        record(450, &(point){60.0 + 30.0 * (double)r, 0.0, 0.0, 10.0 * NOISE_NM * OFF_NM[r], 0.0});
+    search_start();
+    search.whole_coenergy = true;
+    model_add("friction", "coulomb", NULL, 0.0);
+    model_add("friction", "viscous", NULL, 0.0);
+    model_add("friction", "quadratic", NULL, 0.0);
+    model_fit();
+    a.model = model;
+    memset(&model, 0, sizeof model);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_settle(&search, &a, &note));
+    TEST_ASSERT_EQUAL_UINT64(0, hci_candidates_types_in(&a.model.candidates));
+    TEST_ASSERT_TRUE(a.unknown && a.means_open);
+    TEST_ASSERT_FALSE(search.whole_coenergy);
+    hci_attribution_release(&a);
+}
+
 /* Too few samples for a spectrum: noise is noise, and a wave that is slow beside them is none. */
 static void test_few_samples(void)
 {
@@ -122,5 +144,6 @@ int main(void)
     RUN_TEST(test_few_samples);
     RUN_TEST(test_what_a_filter_leaves_is_no_noise);
     RUN_TEST(test_means_of_noise_are_known);
+    RUN_TEST(test_means_that_no_law_predicts);
     return UNITY_END();
 }
