@@ -154,13 +154,14 @@ double hci_cone_least_product(const hci_cone *cone, const double *const s[2], co
 }
 
 /* Where u + t d leaves a second-order cone: the first root of a t² + 2 b t + c above zero, in the form that
- * does not subtract numbers of like size. */
+ * does not subtract numbers of like size. Of a vector inside of the cone b² >= a c whatever d is: what is
+ * less is rounding, of a step through the tip. */
 static double block_step(size_t n, const double *u, const double *d)
 {
     const double a = hyperbolic(n, d), c = hyperbolic(n, u),
-                 b = u[0] * d[0] - hci_vector_dot(n - 1, u + 1, d + 1), square = b * b - a * c;
-    if (square < 0.0 || (a >= 0.0 && b >= 0.0)) return HUGE_VAL;
-    return b > 0.0 ? -(sqrt(square) + b) / a : c / (sqrt(square) - b);
+                 b = u[0] * d[0] - hci_vector_dot(n - 1, u + 1, d + 1), root = sqrt(fmax(0.0, b * b - a * c));
+    if (a >= 0.0 && b >= 0.0) return HUGE_VAL;
+    return b > 0.0 ? -(root + b) / a : c / (root - b);
 }
 
 double hci_cone_step(const hci_cone *cone, const double *u, const double *d, double most)

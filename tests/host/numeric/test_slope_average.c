@@ -75,11 +75,22 @@ static void test_constant(void)
     TEST_ASSERT_EQUAL_DOUBLE(4.0, x[1]);
 }
 
+/* The integral of a straight line is a parabola, whose slope is exact, in the first and last windows too. */
+static void test_straight_line(void)
+{
+    for (size_t k = 0; k < N; ++k)
+        x[k] = 3.0 - 40.0 * (t[k] - t[0]);
+    hci_slope_average(t, N, 7, x, 1, work);
+    for (size_t k = 0; k < N; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-10, 3.0 - 40.0 * (t[k] - t[0]), x[k]);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_slope_of_the_integral);
     RUN_TEST(test_means_of_steps);
     RUN_TEST(test_constant);
+    RUN_TEST(test_straight_line);
     return UNITY_END();
 }
