@@ -195,14 +195,8 @@ static void release_inputs(inputs *in)
 static hci_status write_results(const cli_arguments *a, const inputs *in, const hci_diagnosis *d,
                                 const hci_resolution *r, hci_note *note)
 {
-    char folder[4096];
-    hci_status status = hci_diagnosis_write(d, r, &in->runs, in->folder, a->value[OUT], note);
-    if (status || !r) return status;
-    if (snprintf(folder, sizeof folder, "%s/solution", a->value[OUT]) >= (int)sizeof folder)
-        return hci_note_set(note, HCI_ERROR_OUTPUT, "%.200s…: the path is too long", a->value[OUT]);
-    return hci_solution_write_with_report(
-        &in->machine, &r->after, r->after_status,
-        &(hci_report_sources){.machine = in->folder, .target = a->value[TARGET]}, folder, note);
+    const hci_new_currents currents = {r, &in->machine, a->value[TARGET]};
+    return hci_diagnosis_write(d, r ? &currents : NULL, &in->runs, in->folder, a->value[OUT], note);
 }
 
 static const hci_note *remark_of_run(const void *context, size_t k)

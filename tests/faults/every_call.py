@@ -4,7 +4,7 @@ failing, or with the process killed before it.
     every_call.py LIBRARY kill|error HCI_SOLVE FOLDER COMMAND [WORD...]
 
 LIBRARY is faulty_calls.c, compiled; FOLDER has older results, or is not there. The command gets -q and -o. Once
-another command has read the folder it has to hold the older files or the newer, and, where the process was not
+another command has read the folder it has to hold the older files or the newer, in all folders within, and, where the process was not
 killed, those that the exit code says. Prints how often which was; ends with 1 if a folder was neither.
 """
 
@@ -15,13 +15,7 @@ import subprocess
 import sys
 import tempfile
 
-
-def content(folder):
-    """Names and bytes of what is not hidden; None of a folder that is not there or has nothing."""
-    if not os.path.isdir(folder):
-        return None
-    names = [name for name in os.listdir(folder) if not name.startswith(".")]
-    return {name: open(os.path.join(folder, name), "rb").read() for name in names} or None
+from results import content, read
 
 
 class Trial:
@@ -41,11 +35,6 @@ class Trial:
         ended = subprocess.run(command, env=environment, stdin=subprocess.DEVNULL, capture_output=True)
         return ended.returncode, int((ended.stderr.decode().split() or ["0"])[-1]) if ended.returncode >= 0 else 0
 
-    def read(self):
-        """What the next command does with the folder."""
-        command = [self.program, "emit", self.folder, "--name", "x", "-q", "-o", self.folder + ".emitted"]
-        subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True)
-
 
 def main(library, mode, program, older, *words):
     counted = collections.Counter()
@@ -57,7 +46,7 @@ def main(library, mode, program, older, *words):
             return f"without a fault: exit code {code}, {calls} calls, and the results are the same: {old == new}"
         for at in range(1, calls + 1):
             code, _ = trial.run(at)
-            trial.read()
+            read(program, trial.folder)
             found = content(trial.folder)
             what = "older" if found == old else "newer" if found == new else "neither"
             good = what != "neither" and (code < 0 or (what == "newer") == (code in (0, 1)))

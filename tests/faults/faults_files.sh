@@ -1,5 +1,6 @@
 #!/bin/sh
-# A folder of results that is replaced: the process is killed before any call that changes the folder, or the call fails.
+# A folder of results that is replaced: the process is killed before any call that changes the folder, or the call fails, or it is
+# killed at random times (tests/faults/random_kills.py; a commit lasts a small part of a run).
 # The folder holds the older results or the newer. While another process writes into it, it is refused; results of which a
 # file is not their own are, too.
 . "$(dirname "$0")/../support/common.sh"
@@ -15,6 +16,18 @@ for older in older none; do
             solve data/machine_a --target data/scenarios/02/target.csv --harmonics data/scenarios/02/harmonics.csv
     done
 done
+
+# Folders within a folder: of a diagnosis with new currents these were the older ones, or none, beside the newer findings.
+run 0 simulate data/machine_a data/drive/driven.csv -q -o "$work/driven"
+printf 'file,role\ndriven/trajectory.csv,fit\n' >"$work/runs.csv"
+printf 'order,amplitude_Nm,phase_rad\n0,1,1.5707963267948966\n' >"$work/target.csv"
+diagnose="diagnose data/machine_a --runs $work/runs.csv"
+run 0 $diagnose --target "$work/target.csv" -q -o "$work/older_diagnosis"
+for mode in kill error; do
+    check "$mode, diagnose" python3 tests/faults/every_call.py "$work/faulty_calls.so" $mode "$hci_solve" "$work/older_diagnosis" \
+        $diagnose --target data/scenarios/02/target.csv
+done
+check "killed at random" python3 tests/faults/random_kills.py 20 1 "$hci_solve" "$work/older_diagnosis" $diagnose --target data/scenarios/02/target.csv
 
 cp -R "$work/older" "$work/before"
 flock -o "$work/older" sleep 5 &

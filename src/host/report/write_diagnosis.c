@@ -14,6 +14,7 @@
 #include "host/report/summary.h"
 #include "host/report/write_next.h"
 #include "host/report/write_runs.h"
+#include "host/report/write_solution.h"
 
 enum { PATH_SIZE = 4096 };
 
@@ -191,16 +192,35 @@ static hci_status results_write(hci_output *out, const hci_diagnosis *d, const h
     return status ? status : hci_summary_write(out, hci_diagnosis_json(d, resolution), note);
 }
 
-hci_status hci_diagnosis_write(const hci_diagnosis *d, const hci_resolution *resolution, const hci_runs *runs,
+/* The currents for the corrected machine; without any none are written. */
+static hci_status solution_write(const hci_new_currents *currents, const char *machine_folder,
+                                 const char *folder, hci_output **out, hci_note *note)
+{
+    char path[PATH_SIZE];
+    if (!currents) return HCI_OK;
+    const hci_report_sources sources = {.machine = machine_folder, .target = currents->target};
+    const hci_resolution *r = currents->resolution;
+    hci_status status = folder_within(folder, "solution", path, note);
+    if (!status) status = hci_output_open(path, out, note);
+    return status
+               ? status
+               : hci_solution_write_into(*out, currents->machine, &r->after, r->after_status, &sources, note);
+}
+
+hci_status hci_diagnosis_write(const hci_diagnosis *d, const hci_new_currents *currents, const hci_runs *runs,
                                const char *machine_folder, const char *folder, hci_note *note)
 {
-    hci_output *set[3] = {NULL, NULL, NULL}; /* declared/, machine/, and the folder itself */
-    hci_status status = hci_output_open(folder, &set[2], note);
-    if (!status) status = results_write(set[2], d, resolution, runs, machine_folder, note);
-    if (!status) status = declared_write(machine_folder, runs, folder, &set[0], note);
-    if (!status) status = machine_write(d, machine_folder, folder, &set[1], note);
-    if (!status) return hci_output_commit_together(set, 3, note);
-    for (size_t k = 0; k < 3; ++k)
+    enum { SOLUTION, DECLARED, MACHINE, FOLDER, SETS }; /* the folder itself is the last */
+    hci_output *set[SETS] = {NULL};
+    const hci_resolution *resolution = currents ? currents->resolution : NULL;
+    hci_status status = hci_output_open(folder, &set[FOLDER], note);
+    if (!status) status = results_write(set[FOLDER], d, resolution, runs, machine_folder, note);
+    if (!status) status = declared_write(machine_folder, runs, folder, &set[DECLARED], note);
+    if (!status) status = machine_write(d, machine_folder, folder, &set[MACHINE], note);
+    if (!status) status = solution_write(currents, machine_folder, folder, &set[SOLUTION], note);
+    const size_t first = currents ? SOLUTION : DECLARED;
+    if (!status) return hci_output_commit_together(set + first, SETS - first, note);
+    for (size_t k = 0; k < SETS; ++k)
         hci_output_discard(set[k]);
     return status;
 }

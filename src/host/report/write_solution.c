@@ -1,10 +1,11 @@
 /* The files that a solution is written to. */
+#include "host/report/write_solution.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "hci/host/currents/solution_folder.h"
 #include "hci/host/report/summary.h"
-#include "hci/host/report/write.h"
 #include "host/plot/plot.h"
 #include "host/report/page/page.h"
 #include "host/report/summary.h"
@@ -100,6 +101,15 @@ static hci_status write_report(hci_output *out, const hci_solution *s, hci_statu
     return status;
 }
 
+hci_status hci_solution_write_into(hci_output *out, const hci_machine_data *machine,
+                                   const hci_solution *solution, hci_status verdict,
+                                   const hci_report_sources *sources, hci_note *note)
+{
+    hci_status status = write_files(out, machine, solution, note);
+    if (!status) status = write_report(out, solution, verdict, sources, note);
+    return status ? status : hci_summary_write(out, hci_solution_json(solution, verdict), note);
+}
+
 hci_status hci_solution_write(const hci_machine_data *machine, const hci_solution *solution,
                               hci_status verdict, const char *folder, hci_note *note)
 {
@@ -113,9 +123,7 @@ hci_status hci_solution_write_with_report(const hci_machine_data *machine, const
     hci_output *out;
     hci_status status = hci_output_open(folder, &out, note);
     if (status) return status;
-    status = write_files(out, machine, solution, note);
-    if (!status) status = write_report(out, solution, verdict, sources, note);
-    if (!status) status = hci_summary_write(out, hci_solution_json(solution, verdict), note);
+    status = hci_solution_write_into(out, machine, solution, verdict, sources, note);
     if (!status) return hci_output_commit(out, note);
     hci_output_discard(out);
     return status;

@@ -26,13 +26,21 @@ hci_status hci_solution_write_with_report(const hci_machine_data *machine, const
                                           hci_status verdict, const hci_report_sources *sources,
                                           const char *folder, hci_note *note);
 
+/* Currents for a target torque beside a diagnosis. target: its file, as the user named it, or NULL. */
+typedef struct {
+    const hci_resolution *resolution;
+    const hci_machine_data *machine; /* that the recordings are of */
+    const char *target;
+} hci_new_currents;
+
 /* Writes effects.csv, errors.csv, residual_spectrum.csv, summary.json, report.html, where something is
  * not explained unexplained.csv, and where something is left open measure_next.csv into `folder`, and the
  * corrected machine into `folder`/machine: the tables of machine_folder as they are, with effects.csv.
- * resolution: for summary and report, or NULL.
+ * currents: for summary and report, and those for the corrected machine in `folder`/solution, with
+ * report.html; NULL: none, and a folder of that name stays as it is. All appear together or not at all.
  * `folder`/declared gets what the diagnosis started from: the machine, and runs.csv where the runs are from
  * files. */
-hci_status hci_diagnosis_write(const hci_diagnosis *diagnosis, const hci_resolution *resolution,
+hci_status hci_diagnosis_write(const hci_diagnosis *diagnosis, const hci_new_currents *currents,
                                const hci_runs *runs, const char *machine_folder, const char *folder,
                                hci_note *note);
 
