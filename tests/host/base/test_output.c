@@ -253,6 +253,26 @@ static void leave_a_journal(void)
                                             "remove\t.hci-7-2.tmp\t.hci-7-2.old\tc.csv\n");
 }
 
+/* A process that was killed while it wrote its journal has done nothing yet; a link in its place is not
+ * followed. */
+static void test_a_journal_that_was_not_begun_is_nothing(void)
+{
+    for (int is_link = 0; is_link < 2; is_link++) {
+        const char *draft = files_path(".hci-journal.tmp");
+        hci_output *output = two_files(files_root);
+        files_write(files_path("precious"), "precious\n");
+        if (is_link)
+            TEST_ASSERT_EQUAL(0, symlink("precious", draft));
+        else
+            files_write(draft, "remove\t.hci-7-0.tmp\t.hci-7-0.old\tprecious\n");
+        TEST_ASSERT_EQUAL(HCI_OK, hci_output_commit(output, NULL));
+        assert_holds(files_path("a.csv"), "new a\n");
+        assert_holds(files_path("b.csv"), "new b\n");
+        assert_holds(files_path("precious"), "precious\n");
+        TEST_ASSERT_EQUAL(3, files_count(files_root));
+    }
+}
+
 static void assert_is_ended(void)
 {
     assert_holds(files_path("a.csv"), "new a\n");
@@ -567,6 +587,7 @@ int main(void)
     RUN_TEST(test_a_failed_rename_undoes_those_before);
     RUN_TEST(test_a_rename_that_fails_by_itself_keeps_the_older_file);
     RUN_TEST(test_left_over_files);
+    RUN_TEST(test_a_journal_that_was_not_begun_is_nothing);
     RUN_TEST(test_a_set_that_was_interrupted_is_ended);
     RUN_TEST(test_a_journal_of_others_is_not_followed);
     RUN_TEST(test_a_set_for_which_memory_was_short_is_not_written);
