@@ -5,7 +5,7 @@ failing, or with the process killed before it.
 
 LIBRARY is faulty_calls.c, compiled; FOLDER has older results, or is not there. The command gets -q and -o. Once
 another command has read the folder it has to hold the older files or the newer, in all folders within, and, where the process was not
-killed, those that the exit code says. Prints how often which was; ends with 1 if a folder was neither.
+killed, those that the exit code says; where it was, no backup of an older file is left. Prints how often which was; ends with 1 if a folder was neither.
 """
 
 import collections
@@ -15,7 +15,7 @@ import subprocess
 import sys
 import tempfile
 
-from results import content, read
+from results import content, left_over, read
 
 
 class Trial:
@@ -49,10 +49,11 @@ def main(library, mode, program, older, *words):
             read(program, trial.folder)
             found = content(trial.folder)
             what = "older" if found == old else "newer" if found == new else "neither"
-            good = what != "neither" and (code < 0 or (what == "newer") == (code in (0, 1)))
+            backups = [name for name in left_over(trial.folder) if name.endswith(".old") and mode == "kill"]
+            good = what != "neither" and not backups and (code < 0 or (what == "newer") == (code in (0, 1)))
             counted[what if good else "wrong"] += 1
             if not good:
-                print(f"call {at}: exit code {code}, the folder holds {what}: {sorted(found or [])}")
+                print(f"call {at}: exit code {code}, the folder holds {what}: {sorted(found or [])} {backups}")
         print(f"{calls} calls, {mode}: {dict(counted)}")
     return 1 if counted["wrong"] else 0
 

@@ -3,7 +3,7 @@
     random_kills.py TIMES SEED HCI_SOLVE FOLDER COMMAND [WORD...]
 
 FOLDER has older results, or is not there. The command gets -q and -o; it is killed (SIGKILL, with its children) after a time that
-is drawn evenly from nothing to a tenth more than it takes. Once another command has read the folder it has to hold the
+is drawn evenly from nothing to a tenth more than it took when it ran to its end last. Once another command has read the folder it has to hold the
 older files or the newer, in all folders within. Then the same command runs to its end, and has to leave the newer files and
 nothing else. `sweep`, which keeps its points as it goes, may hold those too, and goes on. `tune`, which writes step by
 step into a folder that is new, may hold some of the newer files, each whole and without the summary.json that ends it, and
@@ -38,6 +38,7 @@ class Trial:
 
     def run(self, seconds=None):
         """Exit code; negative where it was killed."""
+        begun = time.monotonic()
         child = subprocess.Popen(self.command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, start_new_session=True)
         if seconds is not None:
             time.sleep(seconds)
@@ -46,6 +47,8 @@ class Trial:
             except ProcessLookupError:
                 pass
         self.words = child.communicate()[1].decode(errors="replace")
+        if child.returncode in (0, 1):
+            self.took = time.monotonic() - begun
         return child.returncode
 
     def holds(self, old, new):
@@ -62,8 +65,9 @@ class Trial:
         return "steps" if is_step else None
 
 
-def one(trial, seconds, old, new):
-    """What came of one kill, and why it is wrong or None."""
+def one(trial, share, old, new):
+    """What came of one kill, after a share of the time, and why it is wrong or None."""
+    seconds = share * trial.took
     trial.begin()
     code = trial.run(seconds)
     read(trial.program, trial.folder)
@@ -87,19 +91,17 @@ def main(times, seed, program, older, *words):
     with tempfile.TemporaryDirectory() as work:
         trial = Trial(program, older, words, work)
         trial.begin()
-        begun = time.monotonic()
         code = trial.run()
-        took = time.monotonic() - begun
         old, new = content(older), content(trial.folder)
         if code not in (0, 1) or old == new:
             return f"without a kill: exit code {code}, and the results are the same: {old == new}: {trial.words}"
         for _ in range(int(times)):
-            what, why = one(trial, chance.uniform(0.0, 1.1 * took), old, new)
+            what, why = one(trial, chance.uniform(0.0, 1.1), old, new)
             counted[what] += 1
             if why:
                 wrong += 1
                 print(why)
-    print(f"{words[0]}, {took:.2f} s, {times} times: {dict(sorted(counted.items()))}, {wrong} wrong")
+    print(f"{words[0]}, {trial.took:.2f} s, {times} times: {dict(sorted(counted.items()))}, {wrong} wrong")
     return 1 if wrong else 0
 
 

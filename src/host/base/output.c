@@ -481,14 +481,15 @@ static void undo(const sets *all)
             withdraw(&all->set[k]->files[i]);
 }
 
+/* The backups go first: whoever ends a journal takes them away, and without one nobody knows what they are. */
 static void end_journal(const sets *all)
 {
     for (size_t k = 0; k < all->count; k++)
         hci_sync_folder(all->set[k]->folder);
-    hci_journal_end(outer_of(all)->folder);
     for (size_t k = 0; k < all->count; k++)
         for (size_t i = 0; i < all->set[k]->count; i++)
             if (all->set[k]->files[i].has_backup) unlink(all->set[k]->files[i].backup);
+    hci_journal_end(outer_of(all)->folder);
 }
 
 hci_status hci_output_checksums(hci_output *output,
