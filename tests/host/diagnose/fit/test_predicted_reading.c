@@ -120,11 +120,42 @@ static void test_a_lag_of_no_duration(void)
     hci_predicted_reading_release(&reading);
 }
 
+/* Four turns of a shaft that hardly accelerates, as one mean turn: what a constant current makes of the
+ * torque is the same all around, whatever window a slope is taken over, and beside it the derivatives are
+ * those of the torque. */
+static void test_a_free_shaft_at_a_steady_speed(void)
+{
+    enum { TURN = 2000 };
+    const double speed = 50.0, iq_A = 2.0, declared = 1.5 * K_NM_PER_A * iq_A;
+    hci_run *r = add_run(4 * TURN);
+    r->torque_source = HCI_TORQUE_INERTIA;
+    r->hardly_accelerates = true;
+    r->torque_window = 9;
+    for (size_t k = 0; k < r->count; ++k) {
+        r->theta_m_rad[k] = 2.0 * REF_PI * ((double)k + 0.5) / TURN;
+        r->time_s[k] = r->theta_m_rad[k] / speed;
+        r->speed_rad_per_s[k] = speed;
+        rec_phases(0.0, iq_A, P * r->theta_m_rad[k], r->i_A + 3 * k);
+    }
+    search_start();
+    const hci_segment *segment = dataset.samples.segment;
+    TEST_ASSERT_TRUE(segment->turns > 0);
+    hci_effect_term term[TERMS];
+    hci_effect effect[2];
+    const hci_effects effects = linear_effects(term, effect);
+    fill(&effects, true);
+    TEST_ASSERT_NOT_NULL(reading.current_Nm);
+    for (size_t k = 0; k < segment->count; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, declared, reading.current_Nm[k]);
+    hci_predicted_reading_release(&reading);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_derivatives_at_samples);
     RUN_TEST(test_derivatives_between_samples);
     RUN_TEST(test_a_lag_of_no_duration);
+    RUN_TEST(test_a_free_shaft_at_a_steady_speed);
     return UNITY_END();
 }
