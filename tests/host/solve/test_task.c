@@ -1,0 +1,114 @@
+/* The period after which everything repeats: each order counts, wherever it stands. */
+#include "host/solve/task.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "unity.h"
+
+enum { PLACES = 6 };
+
+static hci_machine machine;
+static hci_wave emf[3], wave[3];
+static hci_harmonic cogging[3];
+static hci_inductance_slope slope[3];
+static hci_target_order wanted[3];
+static hci_component component[3];
+static hci_component_set set;
+static hci_target target;
+static hci_task task;
+
+/* Three of everything, all of whole orders. */
+void setUp(void)
+{
+    for (int k = 0; k < 3; ++k) {
+        emf[k] = (hci_wave){1.0 + 2.0 * k, 1, 0.1, 0.0};
+        wave[k] = (hci_wave){1.0 + 4.0 * k, 1, 0.1, 0.0};
+        cogging[k] = (hci_harmonic){.order = 6.0 * k + 6.0};
+        memset(&slope[k], 0, sizeof slope[k]);
+        slope[k].order = 2.0 * k;
+        wanted[k].torque_Nm.order = 6.0 * k;
+        component[k] = (hci_component){.order = 5.0 + 2.0 * k, .sequence = 1};
+    }
+    machine = (hci_machine){.pole_pairs = 4,
+                            .back_emf = emf,
+                            .back_emf_count = 3,
+                            .cogging = cogging,
+                            .cogging_count = 3,
+                            .slope = slope,
+                            .slope_count = 3};
+    target = (hci_target){.order = wanted, .count = 3};
+    set = (hci_component_set){.component = component, .count = 3};
+    memset(&task, 0, sizeof task);
+    task.machine = &machine;
+    task.target = &target;
+}
+
+void tearDown(void)
+{
+}
+
+static size_t period(void)
+{
+    hci_note note = {{0}};
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_task_find_period(&task, &set, wave, 3, &note), note.text);
+    return task.period_turns;
+}
+
+static double *order_at(int place, size_t k)
+{
+    double *const order[PLACES] = {&emf[k].order,  &cogging[k].order,          &slope[k].order,
+                                   &wave[k].order, &wanted[k].torque_Nm.order, &component[k].order};
+    return order[place];
+}
+
+static void test_whole_orders_repeat_after_a_turn(void)
+{
+    TEST_ASSERT_EQUAL_UINT64(1, period());
+    TEST_ASSERT_EQUAL(HCI_OK, hci_task_find_period(&task, NULL, NULL, 0, NULL));
+    TEST_ASSERT_EQUAL_UINT64(1, task.period_turns);
+}
+
+/* A half in any of eighteen places, first, in between and last. */
+static void test_one_half_makes_two_turns(void)
+{
+    for (int place = 0; place < PLACES; ++place)
+        for (size_t k = 0; k < 3; ++k) {
+            *order_at(place, k) += 0.5;
+            TEST_ASSERT_EQUAL_UINT64(2, period());
+            *order_at(place, k) -= 0.5;
+        }
+}
+
+/* A half here and a third there; a quarter that is written to seven digits. */
+static void test_the_least_common_period(void)
+{
+    for (int place = 0; place + 1 < PLACES; ++place) {
+        *order_at(place, 0) += 0.5;
+        *order_at(place + 1, 2) += 0.3333333;
+        TEST_ASSERT_EQUAL_UINT64(6, period());
+        *order_at(place, 0) -= 0.5;
+        *order_at(place + 1, 2) -= 0.3333333;
+    }
+}
+
+static void test_orders_without_a_common_period(void)
+{
+    hci_note note = {{0}};
+    for (size_t k = 0; k < 3; ++k) { /* one alone is nearly whole after some hundred turns */
+        wave[k].order = sqrt(2.0 + (double)k);
+        cogging[k].order = sqrt(17.0 + (double)k);
+    }
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_task_find_period(&task, &set, wave, 3, &note));
+    TEST_ASSERT_NOT_NULL(strstr(note.text, "the orders have no common period"));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_whole_orders_repeat_after_a_turn);
+    RUN_TEST(test_one_half_makes_two_turns);
+    RUN_TEST(test_the_least_common_period);
+    RUN_TEST(test_orders_without_a_common_period);
+    return UNITY_END();
+}
