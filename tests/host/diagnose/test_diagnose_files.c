@@ -1,4 +1,6 @@
 /* The corrected machine on disk, the same bytes twice, and what goes wrong: no run to fit, no memory. */
+#include <unistd.h>
+
 #include "hci/host/report/write.h"
 #include "host/base/memory.h"
 
@@ -94,6 +96,41 @@ static void test_same_bytes(void)
     TEST_ASSERT_EQUAL_INT(0, system(command));
 }
 
+/* Each number of what no effect explains is in its column, in the table and in the summary. */
+static void test_what_is_not_explained(void)
+{
+    record(80, &(point){60.0, 2.0, 0.3, 0.0, 0.0});
+    diagnose(NULL);
+    TEST_ASSERT_EQUAL_UINT64(0, diagnosis.unexplained_count);
+    diagnosis.unexplained_count = 2;
+    diagnosis.unexplained[0] = (hci_unexplained){.order = 6.0,
+                                                 .sine_Nm = 0.25,
+                                                 .cosine_Nm = -0.5,
+                                                 .current_exponent = 1.5,
+                                                 .speed_exponent = 2.0,
+                                                 .amplitude_Nm = 0.75};
+    diagnosis.unexplained[1] = (hci_unexplained){.order = 12.5, .sine_Nm = 3.0, .turns_sign = true};
+    write_into("out");
+    const char *table = files_read(files_path("out/unexplained.csv"));
+    TEST_ASSERT_EQUAL_STRING("order,sine_Nm,cosine_Nm,current_exponent,speed_exponent,direction_exponent\n"
+                             "6,0.25,-0.5,1.5,2,0\n12.5,3,0,0,0,1\n",
+                             strchr(table, '\n') + 1);
+    const char *summary = strstr(files_read(files_path("out/summary.json")), "\"unexplained\"");
+    TEST_ASSERT_NOT_NULL(summary);
+    static const char *const IN_ORDER[] = {"\"order\":\t6",           "\"sine_Nm\":\t0.25",
+                                           "\"cosine_Nm\":\t-0.5",    "\"current_exponent\":\t1.5",
+                                           "\"speed_exponent\":\t2",  "\"turns_sign\":\tfalse",
+                                           "\"amplitude_Nm\":\t0.75", "\"order\":\t12.5",
+                                           "\"sine_Nm\":\t3",         "\"turns_sign\":\ttrue"};
+    for (size_t k = 0; k < sizeof IN_ORDER / sizeof *IN_ORDER; ++k) {
+        summary = strstr(summary, IN_ORDER[k]);
+        TEST_ASSERT_NOT_NULL_MESSAGE(summary, IN_ORDER[k]);
+    }
+    diagnosis.unexplained_count = 0;
+    write_into("out");
+    TEST_ASSERT_EQUAL(-1, access(files_path("out/unexplained.csv"), F_OK));
+}
+
 /* ---- memory ---- */
 
 /* The first allocations fail one by one, later ones in large steps: each one in test_diagnose_long. */
@@ -112,6 +149,7 @@ int main(void)
     RUN_TEST(test_no_run_to_fit);
     RUN_TEST(test_corrected_machine);
     RUN_TEST(test_same_bytes);
+    RUN_TEST(test_what_is_not_explained);
     RUN_TEST(test_memory_is_out);
     return UNITY_END();
 }
