@@ -135,6 +135,35 @@ static void test_watching_changes_nothing(void)
     hci_simulation_release(&unwatched);
 }
 
+/* A tenth of the sampling of the controller, 1 us of a hysteresis, 2048 steps of an electrical turn at a
+ * known speed, else 10 us. */
+static void test_steps_that_are_not_given(void)
+{
+    static const struct {
+        hci_current_loop control;
+        double sample_s, speed_rad_per_s, step_s;
+    } CASE[] = {{HCI_CURRENT_PI, 2e-4, 40.0, 2e-5},
+                {HCI_CURRENT_PI, NAN, 40.0, 1e-5},
+                {HCI_CURRENT_HYSTERESIS, NAN, 40.0, 1e-6},
+                {HCI_CURRENT_IDEAL, NAN, 40.0, 2.0 * 3.14159265358979323846 / (40.0 * 2048.0)},
+                {HCI_CURRENT_IDEAL, NAN, -40.0, 2.0 * 3.14159265358979323846 / (40.0 * 2048.0)},
+                {HCI_CURRENT_IDEAL, NAN, 0.0, 1e-5}};
+    for (size_t k = 0; k < sizeof CASE / sizeof *CASE; ++k) {
+        witness w = {.answer = HCI_ERROR_OUTPUT}; /* the plan is enough */
+        hci_simulation s;
+        hci_note note = {{0}};
+        scenario.step_s = NAN;
+        scenario.current_control = CASE[k].control;
+        scenario.current_sample_time_s = CASE[k].sample_s;
+        scenario.prescribed_speed_rad_per_s = CASE[k].speed_rad_per_s;
+        TEST_ASSERT_EQUAL_MESSAGE(HCI_ERROR_OUTPUT, watch(&w, &s, &note), note.text);
+        const double expected = CASE[k].control == HCI_CURRENT_IDEAL && CASE[k].speed_rad_per_s != 0.0
+                                    ? CASE[k].step_s / machine.model.pole_pairs
+                                    : CASE[k].step_s;
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9 * expected, expected, w.plan.step_s);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -143,5 +172,6 @@ int main(void)
     RUN_TEST(test_an_error_of_the_observer_ends_the_simulation);
     RUN_TEST(test_a_wrong_scenario_is_not_shown);
     RUN_TEST(test_watching_changes_nothing);
+    RUN_TEST(test_steps_that_are_not_given);
     return UNITY_END();
 }

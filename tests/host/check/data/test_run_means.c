@@ -238,9 +238,13 @@ static void test_phase_currents(void)
     hci_check_run_means(&s, &run);
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.5, run.current_balance);
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, sqrt((0.36 + 0.5) / (0.12 + 8.5)), run.current_sum);
-    phase[2] = NULL;
-    hci_check_run_means(&s, &run);
-    TEST_ASSERT_TRUE(isnan(run.current_balance) && isnan(run.current_sum));
+    for (int p = 0; p < 3; ++p) { /* any of the three may be missing */
+        const double *const there = phase[p];
+        phase[p] = NULL;
+        hci_check_run_means(&s, &run);
+        TEST_ASSERT_TRUE(isnan(run.current_balance) && isnan(run.current_sum));
+        phase[p] = there;
+    }
     phase[2] = wave(7, 1.0, 0.0, 0, 0.0);
     hci_check_run_means(&s, &run);
     TEST_ASSERT_FALSE(run.current_balance < 1e6); /* the least is rounding, or none */
