@@ -570,6 +570,43 @@ static void test_other_names_are_taken(void)
     TEST_ASSERT_EQUAL(2 * sizeof good / sizeof *good, files_count(files_root));
 }
 
+/* The line of the header that says how a table is read names the function of its format, frame and parts. */
+static void test_the_header_says_how_it_is_read(void)
+{
+    static const struct {
+        hci_emit_format format;
+        hci_table_frame frame;
+        bool has_parts;
+        const char *use;
+    } CASE[] = {
+        {HCI_EMIT_I16, HCI_TABLE_DQ, false, "hci_currents_dq i = hci_table_i16_dq(&ripple_free, angle);"},
+        {HCI_EMIT_I16, HCI_TABLE_ABC, true,
+         "hci_currents_abc i = hci_table_i16_abc_torque(&ripple_free, angle, torque_Nm);"},
+        {HCI_EMIT_Q15, HCI_TABLE_ABC, false, "hci_units_abc i = hci_table_i16_abc_q15(&ripple_free, angle);"},
+        {HCI_EMIT_Q15, HCI_TABLE_DQ, true,
+         "hci_units_dq i = hci_table_i16_dq_torque_q15(&ripple_free, angle, torque_q15);"},
+        {HCI_EMIT_I8, HCI_TABLE_DQ, false, "hci_units_dq i = hci_table_i16_dq_q15(&ripple_free, angle);"}};
+    const currents a = injected(), b = cogging_part();
+    for (size_t k = 0; k < sizeof CASE / sizeof *CASE; ++k) {
+        hci_emit_request r = request_for(&b);
+        r.format = CASE[k].format;
+        r.frame = CASE[k].frame;
+        r.max_error_A = 0.2;
+        if (CASE[k].has_parts) {
+            r.per_Nm = a.wave;
+            r.per_Nm_count = a.count;
+            r.reference_torque_Nm = 1.0;
+        }
+        (void)emit_well(&r);
+        const char *header = read_text("ripple_free.h");
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(header, CASE[k].use), strstr(header, "Use:"));
+        TEST_ASSERT_EQUAL(CASE[k].has_parts, strstr(header, "|torque| <= ") != NULL);
+        TEST_ASSERT_EQUAL(CASE[k].has_parts, strstr(header, " * Form:   i = torque") != NULL);
+        TEST_ASSERT_EQUAL(CASE[k].has_parts && CASE[k].format == HCI_EMIT_Q15,
+                          strstr(header, "torque_q15 is 32767 at reference_torque_Nm") != NULL);
+    }
+}
+
 /* Of a small motor 0.1 N·m may be all; 0 or less is none. */
 static void test_any_reference_torque_above_zero_is_taken(void)
 {
@@ -810,6 +847,7 @@ int main(void)
     RUN_TEST(test_header_says_what_a_loop_has_to_follow);
     RUN_TEST(test_names_that_are_no_identifiers_are_refused);
     RUN_TEST(test_other_names_are_taken);
+    RUN_TEST(test_the_header_says_how_it_is_read);
     RUN_TEST(test_any_reference_torque_above_zero_is_taken);
     RUN_TEST(test_requests_that_cannot_be_met_are_refused);
     RUN_TEST(test_currents_that_cannot_be_emitted_are_refused);
