@@ -26,11 +26,11 @@ hci_status hci_solution_write_with_report(const hci_machine_data *machine, const
                                           hci_status verdict, const hci_report_sources *sources,
                                           const char *folder, hci_note *note);
 
-/* Currents for a target torque beside a diagnosis. target: its file, as the user named it, or NULL. */
+/* Currents for a target torque, which are written beside a diagnosis. */
 typedef struct {
-    const hci_resolution *resolution;
-    const hci_machine_data *machine; /* that the recordings are of */
-    const char *target;
+    const hci_resolution *resolution; /* of hci_diagnosis_resolve */
+    const hci_machine_data *machine;  /* that the recordings are of, as read */
+    const char *target;               /* file of the torque, as the user named it, or NULL */
 } hci_new_currents;
 
 /* Writes effects.csv, errors.csv, residual_spectrum.csv, summary.json, report.html, where something is
