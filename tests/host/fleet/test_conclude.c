@@ -143,6 +143,9 @@ static void test_a_motor_that_leaves_more(void)
     std_error[6][0] = 20.0; /* and is not three of its own off */
     conclude();
     TEST_ASSERT_EQUAL_UINT64(RESIDUAL, motor[6].worst);
+    value[6][RESIDUAL] = 1.0; /* and with nothing left it is none any more */
+    conclude();
+    TEST_ASSERT_FALSE(motor[6].leaves_more);
 }
 
 static void test_the_machine_in_common(void)
