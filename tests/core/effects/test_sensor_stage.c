@@ -46,10 +46,44 @@ static void test_parts_of_a_step(void)
     TEST_ASSERT_EQUAL_UINT64(12, hci_stage_parts(&resonance, 1.0));
 }
 
+/* Many stages side by side are each of them alone, where steps are so short that all take as many parts of
+ * them; a step back in time, and steps of two lengths. */
+static void check_many(const hci_sensor_stage stage[HCI_EFFECT_SENSORS])
+{
+    enum { N = 400 };
+    static double time_s[N], torque_Nm[N], alone[N], many[N * HCI_EFFECT_SENSORS];
+    for (int k = 0; k < N; ++k) {
+        time_s[k] = (k % 7 == 3 ? 1.7e-6 : 1e-6) + (k > 0 && k != 200 ? time_s[k - 1] : 0.0);
+        torque_Nm[k] = sin(0.05 * k) + (k > 90 ? 0.5 : 0.0);
+    }
+    const hci_effect_run run = {.time_s = time_s, .count = N, .torque_Nm = torque_Nm};
+    hci_stage_filter_many(stage, &run, many);
+    for (int j = 0; j < HCI_EFFECT_SENSORS; ++j) {
+        TEST_ASSERT_EQUAL_UINT64(hci_stage_parts(&stage[0], 1e-6), hci_stage_parts(&stage[j], 1e-6));
+        for (int k = 0; k < N; ++k)
+            alone[k] = torque_Nm[k];
+        hci_stage_filter(&stage[j], &run, alone, 1, 1);
+        for (int k = 0; k < N; ++k)
+            TEST_ASSERT_DOUBLE_WITHIN(1e-12, alone[k], many[k * HCI_EFFECT_SENSORS + j]);
+    }
+}
+
+static void test_many_stages_are_each_alone(void)
+{
+    hci_sensor_stage lag[HCI_EFFECT_SENSORS], resonance[HCI_EFFECT_SENSORS];
+    for (int j = 0; j < HCI_EFFECT_SENSORS; ++j) {
+        lag[j] = (hci_sensor_stage){0.0, 0.0, 1e-4 * (j + 1)};
+        resonance[j] = (hci_sensor_stage){1000.0 * (j + 1), 0.1 * j, 0.0};
+    }
+    check_many(lag);
+    check_many(resonance);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_resonance_keeps_its_frequency);
     RUN_TEST(test_parts_of_a_step);
+    RUN_TEST(test_many_stages_are_each_alone);
     return UNITY_END();
 }

@@ -178,6 +178,29 @@ static void test_floor_is_of_the_largest(void)
     TEST_ASSERT_EQUAL_DOUBLE(5.0, waves[0].order);
 }
 
+/* Two of one order and sequence are one wave, first, in between and last; of another sequence they stay two.
+ */
+static void test_waves_of_one_order_join(void)
+{
+    hci_wave pair[2] = {{5.0, -1, 1.0, 0.25}, {5.0, -1, 2.0, -1.0}};
+    TEST_ASSERT_EQUAL_UINT64(1, hci_waves_join(pair, 2, 1e-9));
+    TEST_ASSERT_EQUAL_DOUBLE(3.0, pair[0].sine);
+    TEST_ASSERT_EQUAL_DOUBLE(-0.75, pair[0].cosine);
+    hci_wave many[7] = {{7.0, 1, 1.0, 0.0}, {1.0, 1, 1.0, 0.0}, {5.0, -1, 1.0, 0.0}, {5.0, 1, 4.0, 0.0},
+                        {7.0, 1, 2.0, 0.0}, {1.0, 1, 8.0, 0.0}, {5.0, -1, 16.0, 0.0}};
+    TEST_ASSERT_EQUAL_UINT64(4, hci_waves_join(many, 7, 1e-9));
+    double sum = 0.0;
+    for (int k = 0; k < 4; ++k) {
+        const double expected = many[k].order == 1.0   ? 9.0
+                                : many[k].order == 7.0 ? 3.0
+                                : many[k].sequence > 0 ? 4.0
+                                                       : 17.0;
+        TEST_ASSERT_EQUAL_DOUBLE(expected, many[k].sine);
+        sum += many[k].sine;
+    }
+    TEST_ASSERT_EQUAL_DOUBLE(33.0, sum);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -193,5 +216,6 @@ int main(void)
     RUN_TEST(test_mean_square_is_the_average_of_the_samples);
     RUN_TEST(test_mean_square_of_known_currents);
     RUN_TEST(test_floor_is_of_the_largest);
+    RUN_TEST(test_waves_of_one_order_join);
     return UNITY_END();
 }
