@@ -83,7 +83,7 @@ static void heading_of_ripple(const hci_speeds *s, char text[256])
     hci_html_number_text(speed, rpm(row->speed_rad_per_s));
     hci_html_number_text(least, row->remedy[best].T_ripple_percent);
     hci_html_number_text(sine, row->remedy[HCI_REMEDY_SINE].T_ripple_percent);
-    snprintf(text, 256, "At %s rpm %s leaves the least ripple, %s %%; a plain sine has %s %%", speed,
+    snprintf(text, 256, "At %s rpm %s leaves the least ripple, %s %%, where a plain sine has %s %%", speed,
              NAME[best], least, sine);
 }
 

@@ -97,7 +97,7 @@ static void test_tables(void)
 /* The least at the highest speed, which is feedforward here, and compensation where that is less. */
 static void test_words(void)
 {
-    text_has("At 1000 rpm feedforward leaves the least ripple, 3 %; a plain sine has 48 %", page());
+    text_has("At 1000 rpm feedforward leaves the least ripple, 3 %, where a plain sine has 48 %", page());
     text_has("1.25 N·m at 3 speeds with a dc link of 80 V.", page());
     text_has("The dc link does for all orders up to 700 rpm", page());
     text_lacks("The sampling does", page());
