@@ -26,8 +26,15 @@ enum { FEW_WINDOWS = 32, MOST_WINDOWS = 512, LEAST_WINDOWS = 16, LEAST_SAMPLES =
 /* Of windows in one direction that are the other: noise of a speed near 0. */
 #define OTHER_WAY 0.05
 
+/* A window in which the shaft goes one way has a mean sign of more, and a mean speed of more than this share
+ * of the rms. In others it waits or turns round, and friction takes of the current what it has to: at rest
+ * anything up to what it brakes with. */
+#define DECIDED 0.9
+#define GOES    0.1
+
 typedef struct {
     double time, speed, iq, sign; /* means over a window */
+    bool is_told;                 /* what friction does in it: the shaft goes one way */
 } window;
 
 /* One row of the fit, about its mean where a constant is fitted too. */
@@ -38,6 +45,7 @@ typedef struct {
 static size_t cut(const hci_effort_samples *s, size_t wanted, window out[MOST_WINDOWS])
 {
     const size_t most = s->count / LEAST_SAMPLES, count = most < wanted ? most : wanted;
+    const double rms_speed = sqrt(hci_mean_square_about(s->speed, s->count, 0.0));
     for (size_t j = 0; j < count; ++j) {
         const size_t from = j * s->count / count, to = (j + 1) * s->count / count;
         const double share = 1.0 / (double)(to - from);
@@ -48,8 +56,18 @@ static size_t cut(const hci_effort_samples *s, size_t wanted, window out[MOST_WI
             out[j].iq += share * s->iq[k];
             out[j].sign += share * ((s->speed[k] > 0.0) - (s->speed[k] < 0.0));
         }
+        out[j].is_told = fabs(out[j].sign) > DECIDED && fabs(out[j].speed) > GOES * rms_speed;
     }
     return count;
+}
+
+/* Windows between two others of which friction is told in all three. */
+static size_t told_of(const window *w, size_t count)
+{
+    size_t told = 0;
+    for (size_t j = 1; j + 1 < count; ++j)
+        told += w[j - 1].is_told && w[j].is_told && w[j + 1].is_told;
+    return told;
 }
 
 static double varies_by(const window *w, size_t count)
@@ -62,6 +80,20 @@ static double varies_by(const window *w, size_t count)
     return fmax(0.0, square - sum * sum);
 }
 
+/* Whether the shaft gets faster and slower while it goes one way, by more than cogging torque makes of it:
+ * what is left of a steady way there and back, without where it turns round, does not accelerate. */
+static bool moves_on_its_way(const window *w, size_t count)
+{
+    double sum = 0.0, square = 0.0, told = 0.0;
+    for (size_t j = 0; j < count; ++j) {
+        if (!w[j].is_told) continue;
+        sum += fabs(w[j].speed);
+        square += w[j].speed * w[j].speed;
+        told += 1.0;
+    }
+    return told > 0.0 && square / told - sum * sum / (told * told) > MOVES * MOVES * square / told;
+}
+
 /* *follows: out, whether the windows tell how the speed changes; else they are few, and tell the rest. */
 static size_t cut_to_motion(const hci_effort_samples *s, window out[MOST_WINDOWS], bool *follows)
 {
@@ -71,7 +103,9 @@ static size_t cut_to_motion(const hci_effort_samples *s, window out[MOST_WINDOWS
     for (size_t wanted = FEW_WINDOWS; varies > MOVES * MOVES * square && wanted <= MOST_WINDOWS;
          wanted *= 2) {
         const size_t count = cut(s, wanted, out);
-        if (count > 0 && varies_by(out, count) > FOLLOWED * varies) return count;
+        const bool is_enough = told_of(out, count) >= LEAST_WINDOWS - 2;
+        if (!is_enough || !(varies_by(out, count) > FOLLOWED * varies)) continue;
+        if (moves_on_its_way(out, count)) return count;
     }
     *follows = false;
     return cut(s, FEW_WINDOWS, out);
@@ -83,7 +117,7 @@ static size_t rows_of(const window *w, size_t count, row *out)
     size_t rows = 0;
     for (size_t j = 1; j + 1 < count; ++j) {
         const double span = w[j + 1].time - w[j - 1].time;
-        if (!(span > 0.0)) continue;
+        if (!(span > 0.0 && w[j - 1].is_told && w[j].is_told && w[j + 1].is_told)) continue;
         out[rows++] = (row){.acceleration = (w[j + 1].speed - w[j - 1].speed) / span,
                             .sign = 0.25 * w[j - 1].sign + 0.5 * w[j].sign + 0.25 * w[j + 1].sign,
                             .iq = 0.25 * w[j - 1].iq + 0.5 * w[j].iq + 0.25 * w[j + 1].iq};

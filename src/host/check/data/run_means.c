@@ -116,10 +116,20 @@ static void speed_take(const check_samples *s, check_run *run)
         run->speed_change = (hci_mean(s->speed + n - fifth, fifth) - hci_mean(s->speed, fifth)) / run->speed;
 }
 
+/* Times what i_q varies by, of the mean: it works against a load, and makes a ripple by the back-EMF that a
+ * shaft without one has not. */
+#define LOAD 4.0
+
+static bool is_loaded(const check_samples *s)
+{
+    const double mean = hci_mean(s->q, s->count);
+    return mean * mean > LOAD * LOAD * hci_mean_square_about(s->q, s->count, mean);
+}
+
 static bool turns_steadily(const check_samples *s, const check_run *run)
 {
     return !s->torque && s->q && s->theta && s->speed && fabs(run->speed) > 0.0 && fabs(run->speed) < SLOW &&
-
+           !is_loaded(s) &&
            hci_mean_square_about(s->speed, s->count, run->speed) < STEADY * STEADY * run->speed * run->speed;
 }
 
