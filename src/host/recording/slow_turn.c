@@ -1,6 +1,7 @@
 #include "host/recording/slow_turn.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "hci/host/base/note.h"
 #include "hci/math/harmonic.h"
@@ -183,5 +184,219 @@ bool hci_row_direction_set(hci_run *run)
     }
     hci_note_add(&run->remark,
                  "no time and no speed: the shaft turned slowly, the way the angle goes from row to row");
+    return true;
+}
+
+/* ---- rows in which the current answers something else ---- */
+
+#define WINDOW_TURNS 0.05 /* electrical, over which the speed is looked at */
+#define LEAST_WAY    2.0  /* electrical turns of a part that is looked at */
+#define REACH        0.5  /* electrical turns from its ends */
+#define LEAST_AWAY   0.1  /* of the pace of a part, … */
+#define AWAY         3.0  /* … and times the rms by which the speed varies in it, that is no pace of it */
+#define WAITS        0.2  /* of the pace: less, and the shaft waits */
+#define STAYS_TURNS  0.02 /* electrical, within which a shaft stays that waits on its way … */
+#define WAIT_TURNS   0.5  /* … as long as it takes for so much of it */
+
+enum {
+    MOST_WAITS = 3 /* on a way; where there are more it goes in steps, and what is read at rest is meant */
+};
+
+typedef struct {
+    const hci_run *run;
+    double turn_rad;        /* mechanical angle of an electrical turn */
+    bool *out;              /* of each row */
+    size_t waiting, others; /* rows that are out */
+} rows;
+
+/* Rows first … end − 1 go one way; behind them the shaft turns round, or the recording ends. */
+typedef struct {
+    size_t first, end;
+    size_t inner_first, inner_end; /* without what is within reach of its ends */
+    size_t half;                   /* rows of half a window */
+    double pace;                   /* mechanical, rad/s, signed */
+    double away;                   /* share of the pace */
+} part;
+
+/* Over the pace of the part: 1 where the shaft goes on as in the rest of it. */
+static double relative_speed(const hci_run *run, const part *a, size_t k)
+{
+    const size_t from = k > a->half ? k - a->half : 0;
+    const size_t to = k + a->half < run->count ? k + a->half : run->count - 1;
+    const double span_s = run->time_s[to] - run->time_s[from];
+    return span_s > 0.0 ? (run->theta_m_rad[to] - run->theta_m_rad[from]) / span_s / a->pace : 1.0;
+}
+
+/* False: too short, or it has no pace. */
+static bool measure(const rows *x, part *a)
+{
+    const double *theta = x->run->theta_m_rad, from = theta[a->first], to = theta[a->end - 1];
+    a->inner_first = a->first;
+    a->inner_end = a->end;
+    if (fabs(to - from) < LEAST_WAY * x->turn_rad) return false;
+    while (fabs(theta[a->inner_first] - from) < REACH * x->turn_rad)
+        ++a->inner_first;
+    while (fabs(theta[a->inner_end - 1] - to) < REACH * x->turn_rad)
+        --a->inner_end;
+    if (a->inner_end < a->inner_first + LEAST) return false;
+    const double way = theta[a->inner_end - 1] - theta[a->inner_first];
+    const double turns = fabs(way) / x->turn_rad, count = (double)(a->inner_end - a->inner_first);
+    a->pace = way / (x->run->time_s[a->inner_end - 1] - x->run->time_s[a->inner_first]);
+    a->half = (size_t)(0.5 * WINDOW_TURNS * count / turns) + 1;
+    double square = 0.0;
+    for (size_t k = a->inner_first; k < a->inner_end; ++k) {
+        const double off = relative_speed(x->run, a, k) - 1.0;
+        square += off * off / count;
+    }
+    a->away = fmax(LEAST_AWAY, AWAY * sqrt(square));
+    return isfinite(a->pace) && isfinite(square);
+}
+
+static void leave_out(rows *x, const part *a, size_t from, size_t to)
+{
+    for (size_t k = from; k < to; ++k) {
+        if (x->out[k]) continue;
+        x->out[k] = true;
+        ++*(fabs(relative_speed(x->run, a, k)) < WAITS ? &x->waiting : &x->others);
+    }
+}
+
+static bool is_settled(const rows *x, const part *a, size_t k)
+{
+    return fabs(relative_speed(x->run, a, k) - 1.0) <= a->away;
+}
+
+/* The first row of a part is the one behind the turning point, where the window is half in the other one. */
+static void take(rows *x, part *a)
+{
+    if (!measure(x, a)) return;
+    size_t from = a->inner_first, to = a->inner_end;
+    while (from > a->first && is_settled(x, a, from - 1))
+        --from;
+    while (to < a->end && is_settled(x, a, to))
+        ++to;
+    /* a window in which the speed is off reaches as far */
+    if (from > a->first) from = from + a->half < a->inner_end ? from + a->half : a->inner_end;
+    if (to < a->end) to = to > from + a->half ? to - a->half : from;
+    leave_out(x, a, a->first, from);
+    leave_out(x, a, to, a->end);
+}
+
+/* Behind the rows from `first` on between which the shaft stays where it is. */
+static size_t stay_end(const rows *x, size_t first, size_t end)
+{
+    const double *theta = x->run->theta_m_rad;
+    double least = theta[first], most = theta[first];
+    size_t k = first;
+    for (; k < end; ++k) {
+        least = fmin(least, theta[k]);
+        most = fmax(most, theta[k]);
+        if (most - least > STAYS_TURNS * x->turn_rad) break;
+    }
+    return k;
+}
+
+/* Middles of the waits on a way; more than MOST_WAITS: there are more. */
+static size_t waits_of(const rows *x, size_t first, size_t end, size_t middle[MOST_WAITS])
+{
+    const double *t = x->run->time_s;
+    const double way = fabs(x->run->theta_m_rad[end - 1] - x->run->theta_m_rad[first]);
+    const double least_s = WAIT_TURNS * x->turn_rad / way * (t[end - 1] - t[first]);
+    size_t waits = 0;
+    for (size_t k = first, next; k < end && waits <= MOST_WAITS; k = next) {
+        const size_t stay = stay_end(x, k, end);
+        const bool is_inside = k > first && stay < end;
+        const bool is_wait = t[stay - 1] - t[k] > least_s;
+        if (is_wait && is_inside && waits++ < MOST_WAITS) middle[waits - 1] = k + (stay - k) / 2;
+        next = is_wait ? stay : k + 1 + (stay - k) / 4;
+    }
+    return waits;
+}
+
+/* A way from turning point to turning point, cut where the shaft waits on it. */
+static void take_way(rows *x, size_t first, size_t end)
+{
+    size_t middle[MOST_WAITS];
+    size_t waits = waits_of(x, first, end, middle);
+    if (waits > MOST_WAITS) waits = 0;
+    for (size_t j = 0; j <= waits; ++j)
+        take(x, &(part){.first = j > 0 ? middle[j - 1] : first, .end = j < waits ? middle[j] : end});
+}
+
+/* Cut where the angle has gone back by half an electrical turn. */
+static void find_parts(rows *x)
+{
+    const double *theta = x->run->theta_m_rad;
+    size_t start = 0, extreme = 0;
+    int way = 0;
+    for (size_t k = 1; k < x->run->count; ++k) {
+        const double gone = theta[k] - theta[extreme];
+        if (way * gone > 0.0) {
+            extreme = k;
+        } else if (fabs(gone) > REACH * x->turn_rad) {
+            if (way != 0) take_way(x, start, extreme + 1);
+            start = way != 0 ? extreme + 1 : start;
+            way = gone > 0.0 ? 1 : -1;
+            extreme = k;
+        }
+    }
+    if (way != 0) take_way(x, start, x->run->count);
+}
+
+/* ---- */
+
+static void compact(double *values, size_t width, const bool *out, size_t count)
+{
+    size_t kept = 0;
+    for (size_t k = 0; values != NULL && k < count; ++k)
+        if (!out[k]) memmove(values + width * kept++, values + width * k, width * sizeof *values);
+}
+
+static void compact_rows(hci_run *run, const bool *out)
+{
+    size_t kept = 0;
+    for (size_t k = 0; k < run->count; ++k) {
+        if (run->row != NULL && !out[k]) run->row[kept] = run->row[k];
+        kept += !out[k];
+    }
+    run->count = kept;
+}
+
+static void keep(hci_run *run, const bool *out)
+{
+    double *const one[] = {run->time_s, run->theta_m_rad, run->speed_rad_per_s, run->torque_Nm,
+                           run->temperature_C};
+    for (size_t j = 0; j < sizeof one / sizeof *one; ++j)
+        compact(one[j], 1, out, run->count);
+    compact(run->i_A, 3, out, run->count);
+    compact(run->v_V, 3, out, run->count);
+    compact_rows(run, out);
+}
+
+static void say(const rows *x, size_t count, hci_note *remark)
+{
+    if (x->waiting > 0 && x->others > 0)
+        hci_note_add(
+            remark,
+            "%zu of %zu rows are not used: in %zu the shaft waits, and in %zu it speeds up, slows down "
+            "or turns round",
+            x->waiting + x->others, count, x->waiting, x->others);
+    else
+        hci_note_add(remark, "%zu of %zu rows are not used, in which the shaft %s", x->waiting + x->others,
+                     count, x->waiting > 0 ? "waits" : "speeds up, slows down or turns round");
+}
+
+bool hci_settled_rows_keep(hci_run *run, int pole_pairs)
+{
+    if (run->time_s == NULL || run->theta_m_rad == NULL || run->count < LEAST) return true;
+    rows x = {.run = run, .turn_rad = 2.0 * HCI_PI / pole_pairs};
+    x.out = hci_memory_new(run->count, sizeof *x.out);
+    if (x.out == NULL) return false;
+    find_parts(&x);
+    if (x.waiting + x.others > 0) {
+        say(&x, run->count, &run->remark);
+        keep(run, x.out);
+    }
+    hci_memory_free(x.out);
     return true;
 }

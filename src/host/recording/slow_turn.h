@@ -31,4 +31,15 @@ void hci_slow_turn_correct(hci_run *run, int pole_pairs, double torque_constant_
  * out. O(samples). */
 bool hci_row_direction_set(hci_run *run);
 
+/* Leaves rows out of a run with time and angle, and says how many, in which a shaft that control turns slowly
+ * waits, where friction takes of the current anything up to what it brakes with, or turns round, where
+ * friction changes its sign and the shaft accelerates: its current does not answer cogging torque and
+ * friction alone there. The way is cut where the shaft turns round, or waits as long as it takes for half an
+ * electrical turn, at up to three places of the way (at more it goes in steps). From both ends of each part,
+ * within half an electrical turn of the shaft, rows are left out up to the last in which its speed over a
+ * twentieth of an electrical turn is not that of the rest of the part: away from it by more than a tenth and
+ * three times the rms by which it varies there. Parts of less than two electrical turns stay as they are.
+ * False: no memory. O(samples). */
+bool hci_settled_rows_keep(hci_run *run, int pole_pairs);
+
 #endif

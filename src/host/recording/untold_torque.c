@@ -1,6 +1,7 @@
 #include "host/recording/untold_torque.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "hci/math/harmonic.h"
@@ -8,6 +9,7 @@
 #include "host/numeric/derivative.h"
 #include "host/numeric/statistics.h"
 #include "host/recording/effort.h"
+#include "host/recording/rotor_frame.h"
 #include "host/recording/slow_turn.h"
 #include "host/recording/speed_variation.h"
 #include "host/recording/turn_balance.h"
@@ -16,6 +18,9 @@
 /* A share of its mean speed by which a shaft that sticks and slips varies, and one that control turns does
  * not. */
 #define UNSTEADY 0.3
+
+/* Of the rows, in which a shaft turns a way of which something is said. */
+#define SEEN_WAY 0.05
 
 typedef struct {
     hci_run *run;
@@ -145,6 +150,34 @@ static hci_status judge_speed(const task *t)
     return HCI_OK;
 }
 
+/* Of the torque that i_q makes, in each direction. */
+static void say_load(const hci_run *run, double constant, hci_note *remark)
+{
+    double sum_Nm[2] = {0.0, 0.0}, count[2] = {0.0, 0.0};
+    char text[2][48] = {"", ""};
+    for (size_t k = 0; k < run->count; ++k) {
+        const int back = run->speed_rad_per_s[k] < 0.0;
+        sum_Nm[back] += constant * hci_run_dq(run, run->pole_pairs, k).q;
+        count[back] += 1.0;
+    }
+    for (int back = 0; back < 2; ++back)
+        if (count[back] > SEEN_WAY * (double)run->count)
+            snprintf(text[back], sizeof text[back], "%.3g N·m %s", sum_Nm[back] / count[back],
+                     back ? "back" : "forward");
+    hci_note_add(remark,
+                 "i_q makes %s%s%s on the average: a load, friction and what brakes together, which nothing "
+                 "here tells apart; it is taken as an unknown constant of each direction",
+                 text[0], text[0][0] && text[1][0] ? " and " : "", text[1]);
+}
+
+/* A shaft that works against a load tells the ripple beside it. */
+static void judge_load(hci_run *run, double constant)
+{
+    run->mean_is_unknown = run->theta_m_rad != NULL && hci_run_is_loaded(run, run->pole_pairs);
+    if (run->mean_is_unknown && run->speed_rad_per_s != NULL && constant > 0.0)
+        say_load(run, constant, &run->remark);
+}
+
 /* The current is the reading, less what of it accelerates: torque_Nm. */
 static hci_status hold(const task *t)
 {
@@ -158,7 +191,10 @@ static hci_status hold(const task *t)
         hci_slow_turn_correct(run, run->pole_pairs, constant);
     for (size_t k = 0; k < run->count; ++k)
         run->torque_Nm[k] = 0.0;
-    return hci_row_direction_set(run) ? HCI_OK : memory_error(t);
+    const bool has_room =
+        hci_row_direction_set(run) && (run->is_unsteady || hci_settled_rows_keep(run, run->pole_pairs));
+    if (has_room) judge_load(run, constant);
+    return has_room ? HCI_OK : memory_error(t);
 }
 
 static void leave_untold(const task *t)

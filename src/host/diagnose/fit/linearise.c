@@ -49,6 +49,13 @@ static bool holding_shows(const hci_run_statistics *x, unsigned traits, double o
     return (traits & HCI_PARAMETER_WITH_LOAD) && x->is_loaded && fabs(order - 1.0) > HCI_ORDER_TOLERANCE;
 }
 
+/* Whether an effect brakes a shaft that is turned slowly against a load that nobody knows. */
+static bool is_of_unknown_load(const hci_run *run, const hci_effect_type *type)
+{
+    return run->torque_source == HCI_TORQUE_HOLDING && run->mean_is_unknown &&
+           (type->coulomb_Nm || type->drag_Nm);
+}
+
 /* Whether a run can show a term of an effect at all. */
 static bool can_show(const hci_run *run, const hci_run_statistics *x, const hci_candidate *s, size_t term)
 {
@@ -57,6 +64,7 @@ static bool can_show(const hci_run *run, const hci_run_statistics *x, const hci_
     if (x->no_current && s->type->sum_by_value) return false;
     if (run->torque_source == HCI_TORQUE_MEASURED) return true;
     if (traits & HCI_PARAMETER_OF_TRANSDUCER) return false;
+    if (is_of_unknown_load(run, s->type)) return false;
     if (filters_speed(run) && (s->type->needs & HCI_EFFECT_NEEDS_RATE)) return false;
     return run->torque_source != HCI_TORQUE_HOLDING || holding_shows(x, traits, s->term[term].order);
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "hci/machine/frames.h"
+#include "hci/math/harmonic.h"
 #include "host/base/memory.h"
 #include "host/diagnose/prepare/current_rate.h"
 #include "host/diagnose/prepare/rest.h"
@@ -22,6 +23,7 @@ enum {
     LEAST_TURNS = 3,    /* for such a mean */
     LEAST_SPARSE = 8,   /* turns that show between the samples of one what those of the others do */
     LEAST_OF_SLOPE = 2, /* samples */
+    LEAST_OF_WAY = 16,
     MOST_OPEN = 8,      /* segments of samples as they are, for each run */
     CREEPING_PIECES = 4 /* means of one steady run whose torque creeps */
 };
@@ -287,13 +289,42 @@ static bool open_segment(const reduction *x, size_t first, size_t count)
 }
 
 /* A recording that is not steady and too long for all of it: parts of it, evenly spread. */
-static bool open_segments(const reduction *x, size_t first, size_t count)
+static bool spread_segments(const reduction *x, size_t first, size_t count)
 {
     const size_t pieces = (count + HCI_LONGEST_SEGMENT - 1) / HCI_LONGEST_SEGMENT;
     const size_t kept = pieces < MOST_OPEN ? pieces : MOST_OPEN;
     for (size_t k = 0; k < kept; ++k) {
         const size_t piece = pieces * k / kept, length = count / pieces;
         if (!open_segment(x, first + piece * length, length)) return false;
+    }
+    return true;
+}
+
+/* Behind the samples from one on that go one way; a shaft that has gone back by so much has turned round. */
+#define TURNED_BACK 0.25 /* electrical turns */
+
+static size_t way_end(const reduction *x, size_t first, size_t end)
+{
+    const double *theta = x->run->theta_m_rad, back = TURNED_BACK * 2.0 * HCI_PI / x->pole_pairs;
+    size_t least = first, most = first;
+    for (size_t k = first; k < end; ++k) {
+        least = theta[k] < theta[least] ? k : least;
+        most = theta[k] > theta[most] ? k : most;
+        if (least > first && theta[k] - theta[least] > back) return least + 1;
+        if (most > first && theta[most] - theta[k] > back) return most + 1;
+    }
+    return end;
+}
+
+/* An unknown load is one constant for each way of a shaft that is turned slowly: a brake turns its sign round
+ * with the motion. */
+static bool open_segments(const reduction *x, size_t first, size_t count)
+{
+    const bool by_way = x->run->torque_source == HCI_TORQUE_HOLDING && x->run->mean_is_unknown;
+    for (size_t k = first, next; k < first + count; k = next) {
+        next = by_way ? way_end(x, k, first + count) : first + count;
+        if (by_way && next - k < LEAST_OF_WAY) continue; /* noise about the turning point */
+        if (!spread_segments(x, k, next - k)) return false;
     }
     return true;
 }
@@ -375,7 +406,7 @@ static bool run_reduce(const reduction *x)
     bool done = hci_turns_find(x->run, x->pole_pairs, &turns, &count);
     if (done) x->samples->statistics[x->index].creeps = any_creeps(x, turns, count);
     if (done && x->run->count <= HCI_LONGEST_SEGMENT && !is_sparse(x, turns, count))
-        done = open_segment(x, 0, x->run->count);
+        done = open_segments(x, 0, x->run->count);
     else if (done && hci_turns_swing(x->run, x->statistics, turns, count))
         done = open_segments(x, 0, x->run->count);
     else
