@@ -544,6 +544,7 @@ static void origin_fill(hci_diagnosis *d)
     snprintf(origin->verdict, sizeof origin->verdict, "%s", hci_diagnosis_verdict_name(d->verdict));
     snprintf(origin->search, sizeof origin->search, "%s", hci_diagnosis_search_name(d->search));
     origin->unexplained_Nm = unexplained_ripple_Nm(d);
+    origin->constant_is_declared = d->held_constant_Nm_per_A > 0.0;
 }
 
 static bool is_usable(const hci_runs *runs, size_t k)

@@ -172,17 +172,22 @@ static void range_add(hci_measured_range *range, double value)
     range->most = fmax(range->most, value);
 }
 
-/* How far a value is outside of a range; 0 inside. */
-static double beyond(hci_measured_range range, double value)
+static double size_of(hci_measured_range range)
+{
+    return fmax(fabs(range.least), fabs(range.most));
+}
+
+/* How far a value is outside of a range; 0 inside, and where it is rounding beside what was recorded. */
+static double beyond(hci_measured_range range, double value, double size)
 {
     const double distance = fmax(range.least - value, value - range.most);
-    const double size = fmax(fabs(range.least), fabs(range.most));
     return distance > ROUNDING * size ? distance : 0.0;
 }
 
 static void fill_currents(const hci_ripple_path *path, const hci_uncertainty *u, hci_expected_ripple *e)
 {
     const hci_measured_run all = hci_uncertainty_measured(u);
+    const double most_A = fmax(size_of(all.id_A), size_of(all.iq_A));
     size_t outside = 0;
     e->measured_id_A = all.id_A;
     e->measured_iq_A = all.iq_A;
@@ -192,14 +197,14 @@ static void fill_currents(const hci_ripple_path *path, const hci_uncertainty *u,
     for (size_t k = 0; k < path->count; ++k) {
         const double theta_rad = path->machine->pole_pairs * path->sample[k].theta_m_rad;
         const hci_dq i = hci_park(hci_clarke(path->sample[k].i_abc), theta_rad);
-        const double distance_A = hypot(beyond(all.id_A, i.d), beyond(all.iq_A, i.q));
+        const double distance_A = hypot(beyond(all.id_A, i.d, most_A), beyond(all.iq_A, i.q, most_A));
         range_add(&e->id_A, i.d);
         range_add(&e->iq_A, i.q);
         outside += distance_A > 0.0;
         e->outside_A = fmax(e->outside_A, distance_A);
     }
     e->outside_share = (double)outside / (double)path->count;
-    e->speed_outside = beyond(all.speed_rad_per_s, path->speed_rad_per_s) > 0.0;
+    e->speed_outside = beyond(all.speed_rad_per_s, path->speed_rad_per_s, size_of(all.speed_rad_per_s)) > 0.0;
 }
 
 #define CHECKED 0.5 /* of the largest current recorded: how far outside the bound has been checked */
@@ -221,8 +226,28 @@ bool hci_expected_ripple_is_far(const hci_expected_ripple *e)
 static hci_expected_ripple nothing(hci_ripple_state state)
 {
     const hci_measured_range none = {NAN, NAN};
-    return (hci_expected_ripple){state, NAN, NAN, NAN,   NAN, NAN,           NAN, none, none, none, none,
-                                 none,  NAN, NAN, false, 0,   {"", "", NAN}, NAN, NAN,  NAN,  NAN,  0.0};
+    return (hci_expected_ripple){state,
+                                 NAN,
+                                 NAN,
+                                 NAN,
+                                 NAN,
+                                 NAN,
+                                 NAN,
+                                 none,
+                                 none,
+                                 none,
+                                 none,
+                                 none,
+                                 NAN,
+                                 NAN,
+                                 false,
+                                 0,
+                                 {"", "", NAN, false},
+                                 NAN,
+                                 NAN,
+                                 NAN,
+                                 NAN,
+                                 0.0};
 }
 
 static double largest_torque_Nm(const hci_ripple_path *path)
@@ -351,6 +376,7 @@ hci_status hci_expected_ripple_find(const hci_ripple_path *path, const hci_uncer
     const hci_status status = find(path, u, expected, note);
     if (status) return status;
     if (u) expected->origin = u->origin;
+    if (expected->origin.constant_is_declared) expected->mean_error_Nm = NAN; /* as good as the sheet */
     fill_unbelievable(path, expected);
     if (expected->state == HCI_RIPPLE_NO_RECORDINGS && hci_machine_origin_is_doubtful(&expected->origin))
         expected->state = HCI_RIPPLE_UNEXPLAINED;

@@ -68,15 +68,27 @@ static void say_mean(const hci_words *w, const hci_expected_ripple *e)
     char Nm[NUMBER_SIZE];
     const bool any =
         fabs(e->mean_Nm) > ROUNDED * e->mean_error_Nm && fabs(e->mean_Nm) > ROUNDED * e->peak_to_peak_Nm;
-    if (isfinite(e->mean_error_Nm))
+    if (isfinite(e->mean_Nm) && e->origin.constant_is_declared)
+        hci_words_say(w, " Mean torque %.4g N·m by the declared torque per ampere, which no recording tells.",
+                      e->mean_Nm);
+    else if (isfinite(e->mean_error_Nm))
         hci_words_say(w, " Mean torque %.4g N·m, at most %s N·m off (95 %%) as the torque was measured.",
                       any ? e->mean_Nm : 0.0, number(e->mean_error_Nm, true, Nm));
 }
 
+/* A current beside the largest of them: rounding is 0. */
+static double beside(double value_A, const hci_expected_ripple *e)
+{
+    const double most_A = fmax(fmax(fabs(e->measured_id_A.least), fabs(e->measured_id_A.most)),
+                               fmax(fabs(e->measured_iq_A.least), fabs(e->measured_iq_A.most)));
+    return fabs(value_A) > ROUNDED * most_A ? value_A : 0.0;
+}
+
 static void say_measured(const hci_words *w, const hci_expected_ripple *e)
 {
-    hci_words_say(w, " (i_d %.3g … %.3g A, i_q %.3g … %.3g A)", e->measured_id_A.least, e->measured_id_A.most,
-                  e->measured_iq_A.least, e->measured_iq_A.most);
+    hci_words_say(w, " (i_d %.3g … %.3g A, i_q %.3g … %.3g A)", beside(e->measured_id_A.least, e),
+                  beside(e->measured_id_A.most, e), beside(e->measured_iq_A.least, e),
+                  beside(e->measured_iq_A.most, e));
 }
 
 static void say_currents(const hci_words *w, const hci_expected_ripple *e)

@@ -146,6 +146,7 @@ static hci_status both_read(const char *uncertainty, const char *measured, hci_u
 
 static const char *const VERDICTS[] = {"complete",         "explained", "ambiguous",
                                        "partly explained", "unknown",   NULL};
+static const char *const CONSTANTS[] = {"declared", NULL};
 static const char *const SEARCHES[] = {"complete", "interrupted", "limited", NULL};
 
 /* One of the words, or an error. */
@@ -175,7 +176,12 @@ static hci_status origin_row(const hci_csv *csv, size_t row, hci_machine_origin 
         return word_of(csv, row, SEARCHES, sizeof origin->search, origin->search, note);
     if (strcmp(name, "unexplained_ripple") == 0)
         return cell_read(csv, "value", row, &origin->unexplained_Nm, note);
-    return hci_csv_error(csv, "name", row, note, "verdict, search or unexplained_ripple",
+    if (strcmp(name, "torque_constant") == 0) {
+        char word[sizeof "declared"];
+        origin->constant_is_declared = true;
+        return word_of(csv, row, CONSTANTS, sizeof word, word, note);
+    }
+    return hci_csv_error(csv, "name", row, note, "verdict, search, unexplained_ripple or torque_constant",
                          "let diagnose write the file again, or remove it");
 }
 
@@ -194,7 +200,7 @@ static hci_status origin_read(const char *path, hci_machine_origin *origin, hci_
 hci_status hci_uncertainty_read_machine(const char *folder, hci_uncertainty *u, hci_note *note)
 {
     char uncertainty[PATH_SIZE], measured[PATH_SIZE], diagnosis[PATH_SIZE];
-    hci_machine_origin origin = {"", "", NAN};
+    hci_machine_origin origin = {"", "", NAN, false};
     memset(u, 0, sizeof *u);
     hci_status status = hci_machine_path(uncertainty, sizeof uncertainty, folder, UNCERTAINTY, note);
     if (!status) status = hci_machine_path(measured, sizeof measured, folder, MEASURED, note);
@@ -272,7 +278,7 @@ static hci_status origin_write(hci_output *out, const hci_machine_origin *origin
     hci_output_text(out, "name,value,unit\nverdict,%s,\nsearch,%s,\nunexplained_ripple,", origin->verdict,
                     origin->search);
     cell_write(out, origin->unexplained_Nm, ',');
-    hci_output_text(out, "Nm\n");
+    hci_output_text(out, "Nm\n%s", origin->constant_is_declared ? "torque_constant,declared,\n" : "");
     return HCI_OK;
 }
 

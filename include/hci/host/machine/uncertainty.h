@@ -30,6 +30,7 @@ typedef struct {
     char search[16];       /* how its search ended, likewise */
     double unexplained_Nm; /* rms of the ripple in its recordings that the model does not have and that is
                             * not noise; NAN: not known */
+    bool constant_is_declared; /* no recording told the torque per ampere: it is the declared one */
 } hci_machine_origin;
 
 /* Whether it has not explained its recordings: partly explained, unknown, or a search that ended early. */
