@@ -5,11 +5,18 @@
 #include "hci/math/dense.h"
 #include "host/check/relations.h"
 
-/* Of the torque of a recording, beside what its currents make by the magnets: friction, iron, reluctance. */
+/* Of the torque of a recording, beside what its currents make by the magnets: iron, and what else. */
 #define TORQUE_UNKNOWN 0.04
 
-/* Below this share of the largest the smaller half-axis of what the currents tell is none. */
-#define LEAST_AXIS 0.15
+/* Of the torque at the largest current: friction, and the zero of the sensor. */
+#define FRICTION_UNKNOWN 0.05
+#define OFFSET_UNKNOWN   0.01
+
+/* Below this share of the largest the smaller half-axis of what the currents tell is none, … */
+#define LEAST_AXIS 0.005
+
+/* … and a zero that is known no better than so is not. */
+#define MOST_ERROR_RAD 0.25
 
 /* ---- by the voltages */
 
@@ -56,10 +63,10 @@ static check_run_zero by_voltage(const check_data *data, const check_interpretat
 #define RELUCTANCE_KNOWN   0.25
 #define RELUCTANCE_LEAST   0.05
 
-enum { COSINE, SINE, RELUCTANCE, UNKNOWNS };
+enum { COSINE, SINE, RELUCTANCE, FRICTION, OFFSET, UNKNOWNS };
 
-/* Normal equations of T = Re(p) cos z + Im(p) sin z + reluctance, p = 3/2 i e*, each run by its own size. p
- * is as the recording has it, turned by `from`. */
+/* Normal equations of T = Re(p) cos z + Im(p) sin z + reluctance - friction + the sensor's zero, p = 3/2 i
+ * e*, each run by its own size. p is as the recording has it, turned by `from`. */
 typedef struct {
     double from_rad, most; /* most: the largest |p| */
     double gram[UNKNOWNS * UNKNOWNS], moment[UNKNOWNS];
@@ -82,7 +89,8 @@ static void torque_add(torque_fit *x, const check_run *r, const check_interpreta
                        const check_model *m)
 {
     const check_vector read = mutual_of(r, as, m), p = hci_check_turned(read, -x->from_rad);
-    const double column[UNKNOWNS] = {p.re, p.im, -p.re * p.im / x->most};
+    const double speed = hci_check_or_zero(hci_check_speed_of(r, as, m)), way = (speed > 0.0) - (speed < 0.0);
+    const double column[UNKNOWNS] = {p.re, p.im, -p.re * p.im / x->most, -way * x->most, x->most};
     const double y = r->torque_mean * as->torque, length = hci_check_length(p);
     if (!(length > 0.0)) return;
     const double weight = 1.0 / (length * length);
@@ -118,13 +126,21 @@ static bool tells_zero(const torque_fit *x)
     return x->count >= 2 && half - apart > LEAST_AXIS * (half + apart);
 }
 
+/* Of what is expected within so much, in the measure of the rows. */
+static double precision_of(double unknown)
+{
+    return TORQUE_UNKNOWN * TORQUE_UNKNOWN / (unknown * unknown);
+}
+
 /* The reluctance is as uncertain as it is expected, and the zero with it as far as the runs do not tell them
  * apart. */
 static check_run_zero solved(torque_fit *x)
 {
-    const double precision = TORQUE_UNKNOWN * TORQUE_UNKNOWN / (x->unknown * x->unknown);
+    const double precision = precision_of(x->unknown);
     double sine[UNKNOWNS] = {[SINE] = 1.0};
     x->gram[RELUCTANCE + RELUCTANCE * UNKNOWNS] += precision;
+    x->gram[FRICTION + FRICTION * UNKNOWNS] += precision_of(FRICTION_UNKNOWN);
+    x->gram[OFFSET + OFFSET * UNKNOWNS] += precision_of(OFFSET_UNKNOWN);
     x->moment[RELUCTANCE] += precision * x->expected;
     if (hci_cholesky_factor(UNKNOWNS, x->gram)) return (check_run_zero){.is_known = false};
     hci_cholesky_solve(UNKNOWNS, x->gram, x->moment);
@@ -148,6 +164,7 @@ static check_run_zero by_torque(const check_data *data, const check_interpretati
         if (!zero.is_known) return zero;
     }
     zero.zero_rad = remainder(zero.zero_rad, 2.0 * HCI_PI);
+    zero.is_known = zero.std_error_rad < MOST_ERROR_RAD;
     return zero;
 }
 
