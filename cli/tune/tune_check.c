@@ -218,8 +218,21 @@ static void judge_torque_way(cli_tuning *t)
         cli_tune_name_of(t, way.run), way.drives_Nm);
 }
 
+/* A zero that the torques show, and not so plainly that it is certain; diagnose may find it again. */
+#define SHOWN_DEG   5.0
+#define SHOWN_ERROR 2.0
+
+static void judge_zero(cli_tuning *t, const hci_check *c)
+{
+    const double zero_deg = c->zero_rad * 180.0 / HCI_PI, error_deg = c->zero_error_rad * 180.0 / HCI_PI;
+    if (!(fabs(zero_deg) > SHOWN_DEG && fabs(zero_deg) > SHOWN_ERROR * error_deg)) return;
+    t->turned_deg = zero_deg;
+    t->turned_error_deg = error_deg;
+}
+
 static void judge_check(cli_tuning *t, const hci_check *c)
 {
+    judge_zero(t, c);
     t->counts_pole_pairs = counts_pole_pairs(t, c);
     for (size_t k = 0; k < c->evidences && c->verdict != HCI_CHECK_CONSISTENT; ++k)
         judge_torque(t, c, &c->evidence[k]);

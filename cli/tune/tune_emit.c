@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "cli/tune/tune_commands.h"
+#include "cli/tune/tune_facts.h"
 #include "cli/tune/tune_options.h"
 
 /* What the header of the table that was emitted says of it; 0: nothing. */
@@ -41,11 +42,6 @@ static bool tells_zero(const cli_tuning *t, const hci_run *r)
     if (!r->theta_m_rad || r->zero_is_unknown) return false;
     return r->is_electrical || r->zero_is_given || (t->has_emf && has_voltages) ||
            (t->has_load && r->torque_source == HCI_TORQUE_MEASURED && has_currents);
-}
-
-double cli_tune_made_Nm(const cli_tuning *t)
-{
-    return t->solution.order_count > 0 ? t->solution.order[0].torque_Nm.cosine : t->mean_Nm;
 }
 
 bool cli_tune_knows_zero(const cli_tuning *t)
@@ -94,7 +90,8 @@ static void say_per_torque(cli_tuning *t, const char *currents, const char *name
 }
 
 /* What the table is, and how its firmware reads it. */
-static void say_table(cli_tuning *t, const char *name, const char *folder, const table_header *h)
+static void say_table(cli_tuning *t, const char *name, const char *folder, const char *currents,
+                      const table_header *h)
 {
     hci_tuning_say(
         &t->tuning, HCI_TUNING_LOAD,
@@ -102,11 +99,12 @@ static void say_table(cli_tuning *t, const char *name, const char *folder, const
         "angle);`, where 2^32 of "
         "the angle is %lu electrical turn%s from the zero of the logs%s%s%s. They are the whole "
         "reference for %.4g N·m (docs/controller.md); their cut makes %.2g N·m of ripple, which is in the "
-        "figures above; another --max-error of emit makes it less, or the table smaller.",
+        "figures above, and not in those of %s/report.html; another --max-error of emit makes it less, or "
+        "the table smaller.",
         folder, name, name, name, h->turns, h->turns == 1 ? "" : "s",
         cli_tune_offset(t) ? " with --angle-offset " : "", cli_tune_offset(t) ? cli_tune_offset(t) : "",
-        h->turns == 1 ? "" : ", not one: the angle goes on from turn to turn", cli_tune_made_Nm(t),
-        h->own_Nm);
+        h->turns == 1 ? "" : ", not one: the angle goes on from turn to turn", cli_tune_made_Nm(t), h->own_Nm,
+        currents);
 }
 
 /* A map of one electrical turn, where that is all that the currents have; else of the mechanical one. */
@@ -136,6 +134,16 @@ static void say_first_turn(cli_tuning *t, const char *machine, const char *curre
                    cli_tune_offset(t) ? cli_tune_offset(t) : "");
 }
 
+/* How to install a table that helps nobody is not asked for. */
+static hci_status say_nothing(cli_tuning *t, const char *folder, const char *name)
+{
+    hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
+                   "Nothing: the table in %s/%s.c takes no ripple away; a sine of the same current does as "
+                   "well.",
+                   folder, name);
+    return HCI_OK;
+}
+
 hci_status cli_tune_emit(cli_tuning *t, hci_note *note)
 {
     const char *name = t->arguments->value[TUNE_NAME] ? t->arguments->value[TUNE_NAME] : "tuned";
@@ -156,7 +164,8 @@ hci_status cli_tune_emit(cli_tuning *t, hci_note *note)
     t->tuning.table_Nm = header.with_Nm;
     if (t->solution.expected.state == HCI_RIPPLE_KNOWN)
         hci_expected_ripple_add_table(&t->solution.expected, header.own_Nm, t->mean_Nm);
-    say_table(t, name, folder, &header);
+    if (cli_tune_is_of_no_use(t) || cli_tune_is_never_seen(t)) return say_nothing(t, folder, name);
+    say_table(t, name, folder, currents, &header);
     say_other_drives(t, currents, machine, header.turns);
     say_components(t);
     say_per_torque(t, currents, name, machine);

@@ -155,6 +155,11 @@ bool cli_tune_is_never_seen(const cli_tuning *t)
     return before_Nm > NEVER_SEEN * (cli_tune_largest_recorded_Nm(t) + t->mean_Nm);
 }
 
+double cli_tune_made_Nm(const cli_tuning *t)
+{
+    return t->solution.order_count > 0 ? t->solution.order[0].torque_Nm.cosine : t->mean_Nm;
+}
+
 /* Of the wanted mean torque, that may be missing and not be spoken of. */
 #define NEAR_WANTED 0.005
 

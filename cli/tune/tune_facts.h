@@ -53,6 +53,9 @@ void cli_tune_swing_of(const cli_tuning *tune, double *before_Nm, double *after_
 /* The largest torque that a recording shows by a sensor, by an acceleration or by its currents. */
 double cli_tune_largest_recorded_Nm(const cli_tuning *tune);
 
+/* The mean torque that the solved currents make, in N·m; not above the wanted one where limits act. */
+double cli_tune_made_Nm(const cli_tuning *tune);
+
 /* The largest phase current in a recording. */
 double cli_tune_largest_recorded_A(const cli_tuning *tune);
 

@@ -87,6 +87,28 @@ static const hci_effect *next_found(const cli_tuning *t, bool (*is_kind)(const h
     return NULL;
 }
 
+/* 1, -1: the one way in which all shafts with a torque sensor turned; 0: both, or none. */
+static int one_way(const cli_tuning *t)
+{
+    size_t forward = 0, backward = 0;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        if (r->torque_source != HCI_TORQUE_MEASURED || !r->speed_rad_per_s) continue;
+        for (size_t n = 0; n < r->count; ++n)
+            ++*(r->speed_rad_per_s[n] < 0.0 ? &backward : &forward);
+    }
+    return forward > 0 && backward == 0 ? 1 : backward > 0 && forward == 0 ? -1 : 0;
+}
+
+/* The zero of a torque sensor is a friction as long as the shaft turns one way. */
+static const char *less_sensor_zero(const cli_tuning *t, const hci_effect *e)
+{
+    return e && is_friction(e) && one_way(t) != 0 ? "; less the zero of the torque sensor, which one "
+                                                    "direction does not tell from it: ± has none of "
+                                                    "that"
+                                                  : "";
+}
+
 /* What several effects explain equally well is not found. */
 static void say_finding(cli_tuning *t, const hci_finding *f)
 {
@@ -100,10 +122,54 @@ static void say_finding(cli_tuning *t, const hci_finding *f)
         say_orders(t, part, effect);
         return;
     }
-    hci_tuning_say(&t->tuning, part, "%s (%s): %s", f->effect,
+    hci_tuning_say(&t->tuning, part, "%s (%s): %s%s", f->effect,
                    is_known || strcmp(f->effect, "unknown") != 0 ? hci_finding_verdict_name(f->verdict)
                                                                  : "left",
-                   f->detail);
+                   f->detail, less_sensor_zero(t, effect));
+}
+
+/* ---- the electrical zero, by the back-EMF that was found ---- */
+
+/* Of the back-EMF, that is turned by no more: nothing to speak of. */
+#define LEAST_TURN_DEG 2.0
+
+/* S sin θ + C cos θ of the declared fundamental. */
+static void fundamental_of(const hci_machine *m, double *sine, double *cosine)
+{
+    *sine = *cosine = 0.0;
+    for (size_t k = 0; k < m->back_emf_count; ++k)
+        if (m->back_emf[k].sequence == 1 && fabs(m->back_emf[k].order - 1.0) < HCI_ORDER_TOLERANCE)
+            *sine += m->back_emf[k].sine, *cosine += m->back_emf[k].cosine;
+}
+
+static bool is_of_emf(const hci_effect *e)
+{
+    return strcmp(e->type->parameter[0].unit, "Nm_per_A") == 0;
+}
+
+/* A fundamental that is turned is no other back-EMF: the angle has another zero. */
+static void say_turned(cli_tuning *t, const hci_finding *f)
+{
+    const hci_effect *e = effect_of(t, f);
+    const int sine = e ? place_of(e, "sine", 1.0) : -1, cosine = e ? place_of(e, "cosine", 1.0) : -1;
+    double s, c;
+    if (f->verdict == HCI_FINDING_REJECTED || cosine < 0 || !is_of_emf(e)) return;
+    fundamental_of(&t->declared.model, &s, &c);
+    const double declared_rad = atan2(c, s);
+    s += sine < 0 ? 0.0 : e->term[sine].value;
+    c += e->term[cosine].value;
+    const double turn_deg = remainder(atan2(c, s) - declared_rad, 2.0 * HCI_PI) * 180.0 / HCI_PI;
+    const double error_deg = e->term[cosine].std_error / hypot(s, c) * 180.0 / HCI_PI;
+    if (!(fabs(turn_deg) > LEAST_TURN_DEG && fabs(turn_deg) > 3.0 * error_deg)) return;
+    t->turned_deg = turn_deg;
+    t->turned_error_deg = error_deg;
+    hci_tuning_say(
+        &t->tuning, HCI_TUNING_UNKNOWN,
+        "Where the electrical zero is: the whole back-EMF, order 1 with it, is found turned by %.1f ± "
+        "%.1f degrees against the angle of the logs. That is a zero of the angle that is off, and no "
+        "other machine: --angle-offset %.1f takes it out (docs/tutorials/zero.md). What else is found "
+        "under load may stand for it.",
+        turn_deg, error_deg, turn_deg);
 }
 
 /* ---- cogging torque of a holding test, with what diagnose has added to it ---- */
@@ -177,6 +243,14 @@ static bool has_sensor(const cli_tuning *t)
 {
     for (size_t k = 0; k < t->runs.count; ++k)
         if (t->runs.run[k].torque_source == HCI_TORQUE_MEASURED) return true;
+    return false;
+}
+
+/* Whether what is known of the torque is the current that balanced it. */
+static bool is_of_current(const cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count; ++k)
+        if (t->runs.run[k].torque_source == HCI_TORQUE_HOLDING) return !has_sensor(t);
     return false;
 }
 
@@ -290,6 +364,7 @@ static void say_cogging(cli_tuning *t)
     say_once_a_turn(t, sum, count);
     judge_slots(t, sum, count);
     judge_one_speed(t, sum, count);
+    if (is_of_current(t)) say_offset(t, sum, count);
     if (t->cogging.kept == 0) return;
     hci_tuning_say(&t->tuning, HCI_TUNING_FOUND,
                    "cogging torque and what else follows the angle alone, %zu order%s, the largest:", count,
@@ -307,7 +382,6 @@ static void say_cogging(cli_tuning *t)
                        cli_tune_order_words(t, o.order, words), hypot(o.sine_Nm, o.cosine_Nm),
                        o.std_error_Nm);
     }
-    say_offset(t, sum, count);
     size_t from = 0;
     if (isfinite(t->cogging.friction_Nm) && !next_found(t, is_friction, &from))
         hci_tuning_say(&t->tuning, HCI_TUNING_FOUND,
@@ -369,5 +443,7 @@ void cli_tune_say_diagnosis(cli_tuning *t)
     say_words(t);
     for (size_t k = 0; k < d->findings; ++k)
         if (d->finding[k].verdict != HCI_FINDING_REJECTED) say_finding(t, &d->finding[k]);
+    for (size_t k = 0; k < d->findings; ++k)
+        say_turned(t, &d->finding[k]);
     if (d->advice[0]) hci_tuning_say(&t->tuning, HCI_TUNING_NEXT, "%s", d->advice);
 }

@@ -154,6 +154,56 @@ static void append_of_doubt(cli_tuning *t)
                t->open_swing_Nm, t->open_swing_Nm / cli_tune_rated_Nm(t));
 }
 
+/* Of the spread of three gains: their mean is one share of all three. */
+#define COMMON 3.0
+
+/* What readings of the three phases are divided by. */
+static bool are_gains(const hci_effect *e)
+{
+    for (size_t j = 0; j < e->count && e->type->correction; ++j)
+        if (e->type->correction[e->term[j].parameter].plus != 1.0) return false;
+    return e->count == 3 && e->type->correction;
+}
+
+/* The gain less 1 that all three sensors have in common; 0: none, or not all were found. */
+static double common_gain(const cli_tuning *t)
+{
+    const hci_effects *list = &t->diagnosis.effects.list;
+    for (size_t k = 0; k < list->count; ++k) {
+        const hci_effect *e = &list->effect[k];
+        if (!are_gains(e)) continue;
+        const double mean = (e->term[0].value + e->term[1].value + e->term[2].value) / 3.0;
+        double spread = 0.0;
+        for (size_t j = 0; j < 3; ++j)
+            spread = fmax(spread, fabs(e->term[j].value - mean));
+        return fabs(mean) > COMMON * spread ? mean : 0.0;
+    }
+    return 0.0;
+}
+
+/* Torque is back-EMF times current: a sensor of the torque does not tell a share of the one from one of the
+ * other. */
+static void append_of_gain(cli_tuning *t)
+{
+    const double gain = common_gain(t), emf = -gain / (1.0 + gain);
+    if (fabs(gain) > 0.0)
+        append(
+            t,
+            " (or, as to all three of them %.2g %% are common, the back-EMF is %.2g %% %s instead, which a "
+            "torque sensor does not tell from it and voltages of the open machine do)",
+            100.0 * fabs(gain), 100.0 * fabs(emf), emf < 0.0 ? "smaller" : "larger");
+}
+
+static void append_of_zero(cli_tuning *t)
+{
+    if (fabs(t->turned_deg) > 0.0 && t->is_solved)
+        append(
+            t,
+            "; the electrical zero of the logs is %.1f ± %.1f degrees off by the torques, unless the machine "
+            "has a saliency that nobody declared: begin again with --angle-offset %.1f",
+            fabs(t->turned_deg), t->turned_error_deg, t->turned_deg);
+}
+
 /* What the table needs of the drive, and does not do. */
 static void append_of_table(cli_tuning *t)
 {
@@ -161,6 +211,8 @@ static void append_of_table(cli_tuning *t)
     if (t->is_solved && *t->solution.corrections)
         append(t, "; this holds once the sensors of the drive, where they are those of the logs, are corrected: %s",
                t->solution.corrections);
+    if (t->is_solved && *t->solution.corrections) append_of_gain(t);
+    append_of_zero(t);
     append_of_doubt(t);
     if (cli_tune_misses_torque(t))
         append(t, "; the table makes %.4g N·m on average, and not the %.4g N·m that were wanted",

@@ -30,23 +30,36 @@ static size_t loads_of(const cli_tuning *t)
     return loads;
 }
 
+/* Whether a shaft was turned slowly against a load. */
+static bool has_load(const cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count; ++k)
+        if (t->runs.run[k].torque_source == HCI_TORQUE_HOLDING &&
+            hci_run_is_loaded(&t->runs.run[k], t->runs.run[k].pole_pairs))
+            return true;
+    return false;
+}
+
 /* What the bench at hand can do first. */
 static void say_next_on_machine(cli_tuning *t)
 {
     if (t->diagnosis.search != HCI_WORK_COMPLETE)
-        hci_tuning_say(
-            &t->tuning, HCI_TUNING_NEXT,
-            "Nothing, as far as this tells: the search for effects ended before all had been compared. "
-            "It gets further with %sMACHINE --runs LIST and what is known in MACHINE/effects.csv.",
-            t->runs.count > 1 ? "fewer logs, or with " : "");
+        hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
+                       "Before another recording: the search for effects ended before all had been compared. "
+                       "It gets further with %sMACHINE --runs LIST and what is known in MACHINE/effects.csv.",
+                       t->runs.count > 1 ? "fewer logs, or with " : "");
     else if (!has_sensor(t))
         hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
                        "On the same bench: the same slow turn forward and back with the table in the drive "
                        "shows what is left of the cogging torque in what the speed still varies by, and in "
                        "i_q less the i_q of the table; i_q as it is measured has the table in it, and looks "
                        "as before. Spins at two other speeds, each in both directions, tell "
-                       "friction. What load "
-                       "adds takes a torque sensor.");
+                       "friction.%s",
+                       has_load(t) ? " The torque per ampere takes a torque sensor, or voltages of the open "
+                                     "machine that another one turns."
+                                   : " Against a brake the same turn forward and back tells the harmonics of "
+                                     "the back-EMF too; the torque per ampere takes a torque sensor, or "
+                                     "voltages of the open machine that another one turns.");
     else if (loads_of(t) >= ENOUGH_LOADS && t->diagnosis.verdict >= HCI_DIAGNOSIS_PARTLY)
         hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
                        "Not more of the same: as long as something in these recordings is not explained, the "

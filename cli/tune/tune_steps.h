@@ -53,7 +53,9 @@ typedef struct {
     bool counts_pole_pairs; /* something in the recordings does */
     double
         inertia_share; /* of the recording where it is largest, as in hci_run; 0: the inertia is believable */
-    bool has_standstill;   /* the angle changes in none of the recordings */
+    bool has_standstill;                 /* the angle changes in none of the recordings */
+    double turned_deg, turned_error_deg; /* --angle-offset that the torques ask for, electrical, and its
+                                          * standard error; 0: none */
     double once_a_turn_Nm; /* cogging torque of once a turn that a load on the shaft may make; 0: none */
     double
         jump_rad; /* electrical, by which the angle of a recording jumps and stands between; 0: none does */
@@ -107,9 +109,6 @@ bool cli_tune_is_blocked(const cli_tuning *tune);
 
 /* The electrical order of the cogging torque of slots and poles; 0: the slots are not given. */
 double cli_tune_order_of_slots(const cli_tuning *tune);
-
-/* The mean torque that the solved currents make, in N·m; not above the wanted one where limits act. */
-double cli_tune_made_Nm(const cli_tuning *tune);
 
 /* Whether the torque of a recording was typed, and none is measured. */
 bool cli_tune_is_typed(const cli_tuning *tune);

@@ -81,7 +81,9 @@ static void say_waveform(cli_tuning *t, size_t run, const hci_waveform *w)
 {
     const bool is_emf = w->quantity == HCI_WAVEFORM_BACK_EMF;
     double above = HUGE_VAL;
-    if (w->remark.text[0]) hci_tuning_say(&t->tuning, HCI_TUNING_READ, "  %s", w->remark.text);
+    if (w->remark.text[0])
+        hci_tuning_say(&t->tuning, HCI_TUNING_READ, "  by %s turn: %s; what it leaves, diagnose looks at",
+                       w->step < 1.0 ? "the mechanical" : "the electrical", w->remark.text);
     if (!is_emf) return; /* said when diagnose has added to it */
     hci_tuning_say(&t->tuning, HCI_TUNING_FOUND, "back-EMF, %zu orders, from %s", w->kept,
                    cli_tune_name_of(t, run));

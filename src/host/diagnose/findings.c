@@ -12,6 +12,8 @@ enum { LONGEST_TERM = 80 }; /* bytes of one term in words */
 
 /* ---- in words ---- */
 
+#define ROUNDING 1e-9 /* of its standard error, below which a value is 0 */
+
 /* "sine_18 = 0.021 ± 0.0008 Nm" */
 static size_t describe_term(const hci_effect_type *type, const hci_effect_term *term, char *text, size_t size)
 {
@@ -19,10 +21,11 @@ static size_t describe_term(const hci_effect_type *type, const hci_effect_term *
     const char *unit = strcmp(p->unit, "1") == 0 ? "" : p->unit;
     char order[32] = "";
     if (p->ordered) snprintf(order, sizeof order, "_%.6g", term->order);
-    const int length = term->std_error > 0.0 ? snprintf(text, size, "%s%s = %.4g ± %.2g %s", p->name, order,
-                                                        term->value, term->std_error, unit)
-                                             : snprintf(text, size, "%s%s = %.4g %s, not told by itself",
-                                                        p->name, order, term->value, unit);
+    const double value = fabs(term->value) > ROUNDING * term->std_error ? term->value : 0.0;
+    const int length =
+        term->std_error > 0.0
+            ? snprintf(text, size, "%s%s = %.4g ± %.2g %s", p->name, order, value, term->std_error, unit)
+            : snprintf(text, size, "%s%s = %.4g %s, not told by itself", p->name, order, term->value, unit);
     return (size_t)length < size ? (size_t)length : size - 1;
 }
 

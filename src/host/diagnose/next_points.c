@@ -37,10 +37,23 @@ static bool advice_begin(hci_diagnosis *d)
     return true;
 }
 
+/* Under position control a drive makes the i_q that the shaft takes, and few take an i_d beside it. */
+static void advice_of_slow_turn(hci_diagnosis *d, const hci_next_point *p)
+{
+    const hci_words w = {d->advice, sizeof d->advice};
+    hci_words_say(&w, "%.4g turns under slow control, i_q as it comes, at %.4g rad/s (mechanical)", p->turns,
+                  p->speed_rad_per_s);
+    if (fabs(p->id_A) > 0.0)
+        hci_words_say(&w, " with i_d %.3g A, where the drive takes one beside its position control", p->id_A);
+}
+
 static void advice_of_point(hci_diagnosis *d, const hci_next_point *p)
 {
-    hci_words_say(&(hci_words){d->advice, sizeof d->advice}, "%.4g turns%s at i_d %.3g A, ", p->turns,
-                  p->source == HCI_TORQUE_HOLDING ? " of holding" : "", p->id_A);
+    if (p->source == HCI_TORQUE_HOLDING) {
+        advice_of_slow_turn(d, p);
+        return;
+    }
+    hci_words_say(&(hci_words){d->advice, sizeof d->advice}, "%.4g turns at i_d %.3g A, ", p->turns, p->id_A);
     if (isfinite(p->iq_A))
         hci_words_say(&(hci_words){d->advice, sizeof d->advice}, "i_q %.3g A, ", p->iq_A);
     else
@@ -314,12 +327,22 @@ static void points_add(const hci_regression *e, const hci_playable *playable, co
     }
 }
 
+/* Whether the bench of the recordings can do it as it is. */
+static bool is_at_hand(const hci_next_point *p)
+{
+    return p->source != HCI_TORQUE_HOLDING || !(fabs(p->id_A) > 0.0);
+}
+
 static void advice_of_unknown(hci_diagnosis *d, size_t before)
 {
-    if (d->next_points == before || !advice_begin(d)) return;
+    size_t k = before;
+    while (k < d->next_points && !is_at_hand(&d->next[k]))
+        ++k;
+    if (k == d->next_points || !advice_begin(d)) return;
     hci_words_say(&(hci_words){d->advice, sizeof d->advice}, "what is not known: ");
-    advice_of_point(d, &d->next[before]);
-    hci_words_say(&(hci_words){d->advice, sizeof d->advice}, " would say most (%s)", d->next[before].why);
+    advice_of_point(d, &d->next[k]);
+    hci_words_say(&(hci_words){d->advice, sizeof d->advice}, " would say %s (%s)",
+                  k == before ? "most" : "more", d->next[k].why);
 }
 
 hci_status hci_next_points_unknown(const hci_regression *e, const hci_machine_data *machine, hci_diagnosis *d,

@@ -87,7 +87,8 @@ static void remark_limit(const hci_waveform_task *t, const hci_average *average,
     const double reached = (double)average->highest * step;
     const double wanted = isnan(o->max_order) ? HCI_WAVEFORM_ORDER_MOST : o->max_order;
     if (o->orders != NULL || reached + step > wanted) return;
-    hci_note_add(&t->result->remark, "orders above %.6g are not looked at: the samples lie too far apart%s",
+    hci_note_add(&t->result->remark,
+                 "orders above %.6g are not looked at: in places of a turn the samples lie too far apart%s",
                  reached,
                  isnan(o->max_order) && average->count > 3 ? "; --max-order N puts turns together" : "");
 }

@@ -1,0 +1,58 @@
+#!/bin/sh
+# Slow turns against a brake as drives log them: a shaft that waits, one that turns round with a jerk, and brakes of two sizes, whose mean nobody
+# knows. The sign of i_q is told either way, the ripple beside the load is found, and nothing is said of what the load hides.
+# labels: slow
+#   cli_tune_loads.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+. "$1/tests/support/common.sh"
+use_plain_build
+cd "$work" || exit 1
+
+# 5 pole pairs, 12 slots, 0.1 N·m/A: cogging torque of order 12, 0.004 N·m, a back-EMF of order 5, 2 %, friction
+# and a brake; forward two turns and back at 0.6 rad/s. WAIT: s at the start and at the turning point, in which the
+# speed dithers and i_q stays where friction lets it; JERK: 1: the shaft overshoots after it has turned round.
+brake_log() { # FILE BRAKE_Nm WAIT_s JERK SIGN SEED
+    awk -v brake="$2" -v wait="$3" -v jerk="$4" -v sign="$5" -v seed="$6" 'BEGIN { srand(seed); print "time_s,theta_m_rad,speed_rad_per_s,iq_A"
+        turn = 6.283185307179586; w = 0.6; one = 2 * turn / w; x = 0.4; t = 0; dt = 0.005; stuck = 0
+        while (t < 2 * wait + 2 * one) {
+            goes = t < wait ? 0 : t < wait + one ? 1 : t < 2 * wait + one ? 0 : -1
+            v = goes * w
+            since = t - 2 * wait - one
+            if (jerk && since > 0 && since < 0.4) v *= 1 + 0.9 * cos(8 * since) * exp(-6 * since)
+            q = (goes * brake + 0.004 * sin(12 * 5 * x + 0.3)) / (0.1 + 0.002 * sin(6 * 5 * x + 0.3))
+            if (jerk && since > -0.1 && since < 0.1) q = 5 * (0.1 - since) * brake * 2 / 0.1 - brake / 0.1
+            if (goes) stuck = q; else q = 0.97 * stuck
+            printf "%.4f,%.6f,%.4f,%.5f\n", t, x + 2e-4 * (rand() - 0.5), v + (rand() - 0.5) * (goes ? 0.05 : 0.25), sign * (q + 0.01 * (rand() - 0.5))
+            x += v * dt; t += dt } }' >"$1"
+}
+motor='--pole-pairs 5 --flux 0.0133333333333333 --slots 12 --torque 0.06'
+
+# ---- a shaft that waits is accused of nothing, and one whose current is counted the other way still is
+
+brake_log waits.csv 0.04 1.5 0 1 1
+run 0 tune waits.csv $motor -o waits
+says '^tuned: ' '^  conventions: consistent' '  order 12: 0\.00(40|399)[0-9]* ± ' 'rows are not used'
+check "waiting rows are not counted" grep -q '[0-9][0-9]* of [0-9]* rows are not used: in [0-9]* the shaft waits' waits/summary.json
+brake_log against.csv 0.04 1.5 0 -1 1
+run 1 tune against.csv $motor -o against
+says '^a convention is broken: .*(counted out of the machine|backward|works against the motion)'
+
+# ---- the mean is a load, and no friction; no torque was measured, and no bound of the mean is stated
+
+check "a brake is called friction" [ "$(grep -c 'friction (added)' waits/summary.json)" -eq 0 ]
+check "the load is not said" grep -q 'i_q makes 0\.040* N·m forward and -0\.040* N·m back on the average: a load, friction and what brakes together' waits/summary.json
+check "a bound of a mean that nobody measured" [ "$(grep -c 'as the torque was measured' waits/summary.json waits/report.html | sed 's/.*://' | sort -u)" = 0 ]
+check "a current of rounding" [ "$(grep -c 'e-1[0-9] A' waits/report.html)" -eq 0 ]
+check "what says that the constant is declared" grep -q '^torque_constant,declared,' waits/diagnose/machine/diagnosis.csv
+
+# ---- the shaft turns round with a jerk; two loads without a torque sensor
+
+brake_log light.csv 0.02 0 1 1 2
+brake_log heavy.csv 0.09 0 1 1 3
+run 0 tune heavy.csv $motor -o heavy
+says '^tuned: ' '  order 12: 0\.00(4|39)[0-9]* ± ' 'rows are not used.*speeds up, slows|speeds up, slows'
+run 0 tune light.csv heavy.csv $motor -o both # each brake a mean of its own, the ripple of both one machine's
+says '^tuned: ' '  order 12: 0\.00(40|399)[0-9]* ± '
+check "loads are not apart" grep -q 'light.csv: .*i_q makes 0\.02[0-9]* N·m forward' both/summary.json
+check "what a load adds is said to take a sensor" [ "$(grep -c 'What load adds takes' both/summary.json)" -eq 0 ]
+
+finish
