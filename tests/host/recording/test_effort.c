@@ -89,6 +89,24 @@ static void test_a_wave_and_noise_tell_nothing(void)
     TEST_ASSERT_EQUAL(0, hci_effort_way(&few));
 }
 
+/* A brake, forward and back; before each way the shaft waits, its speed dithers about 0, and friction holds
+ * i_q where the way before has left it. */
+static void test_a_shaft_that_waits_tells_no_sign(void)
+{
+    for (int sign = -1; sign <= 1; sign += 2) {
+        for (size_t k = 0; k < N; ++k) {
+            const size_t half = k % (N / 2);
+            const double way = half < N / 20 ? 0.0 : k < N / 2 ? 1.0 : -1.0;
+            at_s[k] = 1e-2 * (double)k;
+            speed[k] = 0.6 * way + (way == 0.0 ? 0.2 : 0.05) * ref_normal(&state);
+            iq_A[k] = sign * (way == 0.0 ? (k < N / 2 ? 0.0 : 0.4) : 0.4 * way) + 0.01 * ref_normal(&state);
+        }
+        const hci_effort effort = hci_effort_find(&(hci_effort_samples){at_s, speed, iq_A, N});
+        TEST_ASSERT_EQUAL(sign, hci_effort_way(&effort));
+        TEST_ASSERT_TRUE(effort.has_both_ways);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -97,5 +115,6 @@ int main(void)
     RUN_TEST(test_windows_follow_the_motion);
     RUN_TEST(test_a_weight_is_no_friction);
     RUN_TEST(test_a_wave_and_noise_tell_nothing);
+    RUN_TEST(test_a_shaft_that_waits_tells_no_sign);
     return UNITY_END();
 }
