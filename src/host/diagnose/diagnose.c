@@ -634,6 +634,15 @@ static hci_status diagnose_measured(const task *t, hci_diagnosis *diagnosis, hci
     return status;
 }
 
+static size_t unknown_loads_of(const hci_runs *runs)
+{
+    size_t count = 0;
+    for (size_t k = 0; k < runs->count; ++k)
+        count += runs->role[k] == HCI_ROLE_FIT && runs->run[k].torque_source == HCI_TORQUE_HOLDING &&
+                 runs->run[k].mean_is_unknown;
+    return count;
+}
+
 /* All but what a run that disagrees with the others says. */
 static hci_status diagnose_all(const task *t, hci_diagnosis *diagnosis, hci_note *note)
 {
@@ -643,6 +652,9 @@ static hci_status diagnose_all(const task *t, hci_diagnosis *diagnosis, hci_note
     diagnosis->open_voltage_off = hci_open_voltage_off(&t->machine->model, t->runs);
     if (diagnosis->open_voltage_off > HCI_OPEN_VOLTAGE_OFF && diagnosis->verdict == HCI_DIAGNOSIS_COMPLETE)
         diagnosis->verdict = HCI_DIAGNOSIS_UNKNOWN;
+    diagnosis->unknown_loads = unknown_loads_of(t->runs);
+    if (diagnosis->unknown_loads > 0 && diagnosis->verdict == HCI_DIAGNOSIS_COMPLETE)
+        diagnosis->verdict = HCI_DIAGNOSIS_UNKNOWN; /* of the ripple alone nothing is missing */
     return HCI_OK;
 }
 

@@ -235,9 +235,18 @@ static void say_not_searched(const hci_words *w, const hci_diagnosis *d)
         d->slip, d->rms_before_Nm);
 }
 
+/* Nothing was found in the ripple, and the means are of a load. */
+static bool is_of_loads(const hci_diagnosis *d)
+{
+    return d->unknown_loads > 0 && !any(d, HCI_FINDING_ADDED) && !d->wanders && !d->means_open &&
+           d->unexplained_count == 0 && !d->disbelieved && !d->contradicted && !is_unfinished(d);
+}
+
 static void say_not_known(const hci_words *w, const hci_diagnosis *d)
 {
-    hci_words_say(w, is_of_voltages(d)  ? "What the model lacks does not show in these torques."
+    hci_words_say(w, is_of_voltages(d) ? "What the model lacks does not show in these torques."
+                     : is_of_loads(d)  ? "Nothing is missing in the ripple, and the mean of the torque is an "
+                                         "unknown load, of which nothing is told."
                      : is_unfinished(d) ? "What the model lacks is not known yet."
                                         : "No known effect explains what the model lacks.");
 }

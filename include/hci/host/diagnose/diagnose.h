@@ -212,7 +212,9 @@ typedef struct {
                                     * declared torque per ampere; 0: no friction is of them */
     double held_constant_Nm_per_A; /* torque per ampere as declared, that no run to be fitted tells and that
                                     * torques are found by; 0: one tells it */
-    bool nothing_measured;         /* no run to be fitted has an angle and a torque: nothing can be said */
+    size_t unknown_loads;  /* slow turns to be fitted that work against a load which nobody knows: their means
+                            * say  nothing */
+    bool nothing_measured; /* no run to be fitted has an angle and a torque: nothing can be said */
 } hci_diagnosis;
 
 /* Whether a finding is in the machine beside others as a part of a whole that was chosen together, such as
