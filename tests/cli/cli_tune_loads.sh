@@ -55,4 +55,12 @@ says '^tuned: ' '  order 12: 0\.00(40|399)[0-9]* ± '
 check "loads are not apart" grep -q 'light.csv: .*i_q makes 0\.02[0-9]* N·m forward' both/summary.json
 check "what a load adds is said to take a sensor" [ "$(grep -c 'What load adds takes' both/summary.json)" -eq 0 ]
 
+# ---- a load alone is no machine in which nothing is missing, and a table that takes nothing away is not to be loaded
+
+awk 'BEGIN { srand(4); print "time_s,theta_m_rad,speed_rad_per_s,iq_A"; for (k = 0; k < 8000; ++k) { t = 0.005 * k; way = t < 20 ? 1 : -1
+    printf "%.4f,%.6f,%.4f,%.5f\n", t, 0.6 * (20 - (t < 20 ? 20 - t : t - 20)), 0.6 * way, way * 0.5 + 0.01 * (rand() - 0.5) } }' >smooth.csv
+run 1 tune smooth.csv $motor -o smooth
+says '^a table of no use: ' 'Nothing is missing in the ripple, and the mean of the torque is an' 'takes no ripple away'
+check "how to load a table of no use" [ "$(grep -c 'need hci/table.h alone\|First turn on the bench' smooth/summary.json)" -eq 0 ]
+
 finish
