@@ -169,7 +169,7 @@ static void say_turned(cli_tuning *t, const hci_finding *f)
         "%.1f degrees against the angle of the logs. That is a zero of the angle that is off, and no "
         "other machine: --angle-offset %.1f takes it out (docs/tutorials/zero.md). What else is found "
         "under load may stand for it.",
-        turn_deg, error_deg, turn_deg);
+        turn_deg, error_deg, cli_tune_offset_to_give(t));
 }
 
 /* ---- cogging torque of a holding test, with what diagnose has added to it ---- */

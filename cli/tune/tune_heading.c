@@ -201,7 +201,7 @@ static void append_of_zero(cli_tuning *t)
             t,
             "; the electrical zero of the logs is %.1f ± %.1f degrees off by the torques, unless the machine "
             "has a saliency that nobody declared: begin again with --angle-offset %.1f",
-            fabs(t->turned_deg), t->turned_error_deg, t->turned_deg);
+            fabs(t->turned_deg), t->turned_error_deg, cli_tune_offset_to_give(t));
 }
 
 /* What the table needs of the drive, and does not do. */
