@@ -19,24 +19,39 @@ static bool is_own(const char *name)
                                         "currents", "table",    "report.html", "summary.json", "commands.sh"};
     for (size_t k = 0; k < sizeof NAMES / sizeof *NAMES; ++k)
         if (strcmp(name, NAMES[k]) == 0) return true;
-    return name[0] == '.'; /* itself, the one above, and what is being written */
+    return false;
+}
+
+/* What is wrong with a folder in which these names stand; "" each: there is none. */
+static hci_status refuse_folder(const char *folder, const char *foreign, const char *own, hci_note *note)
+{
+    if (*foreign)
+        return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                            "tune: %s has files in it that tune did not write, such as %s; expected a new "
+                            "folder for the results: give --out another one",
+                            folder, foreign);
+    return hci_note_set(
+        note, HCI_ERROR_ARGUMENT,
+        "tune: %s has %s in it and no summary.json, which tune writes last: a call was broken "
+        "off there, or it is of something else; expected a new folder, or one that tune has "
+        "finished: delete what is in it, or give --out another one",
+        folder, own);
 }
 
 hci_status cli_tune_claim_folder(const char *folder, hci_note *note)
 {
-    hci_status status = HCI_OK;
+    char foreign[256] = "", own[256] = "";
+    bool is_finished = false;
     DIR *open = opendir(folder);
     if (!open && errno == ENOMEM) return hci_note_memory(note, folder, "looking into it");
     if (!open) return HCI_OK; /* new; what else it is, the first file that is written tells */
-    for (struct dirent *at; !status && (at = readdir(open)) != NULL;)
-        if (!is_own(at->d_name))
-            status =
-                hci_note_set(note, HCI_ERROR_ARGUMENT,
-                             "tune: %s has files in it that tune did not write, such as %s; expected a new "
-                             "folder for the results: give --out another one",
-                             folder, at->d_name);
+    for (struct dirent *at; (at = readdir(open)) != NULL;) {
+        if (at->d_name[0] == '.') continue; /* itself, the one above, and what is being written */
+        snprintf(is_own(at->d_name) ? own : foreign, sizeof own, "%s", at->d_name);
+        is_finished = is_finished || strcmp(at->d_name, "summary.json") == 0;
+    }
     closedir(open);
-    return status;
+    return *foreign || (*own && !is_finished) ? refuse_folder(folder, foreign, own, note) : HCI_OK;
 }
 
 /* ---- columns in another unit ---- */

@@ -164,6 +164,10 @@ echo "my log" >mine/log.csv
 run 2 tune even.csv --pole-pairs 7 --kv 100 -o mine
 check "the folder is named" grep -q "mine has files in it that tune did not write, such as log.csv" "$work/stderr"
 check "nothing beside my files" [ "$(ls -A mine)" = log.csv ]
+mkdir broken && mkdir broken/machine && echo of_mine >broken/machine/machine.csv
+run 2 tune even.csv --pole-pairs 7 --kv 100 -o broken
+check "a folder that was not finished" grep -q "broken has machine in it and no summary.json, which tune writes last: a call was broken off" "$work/stderr"
+check "its file is as it was" [ "$(cat broken/machine/machine.csv)" = of_mine ]
 
 printf 'time_s,Crank angle,Motor encoder,iq_A\n0,1,2,3\n1,2,3,4\n' >two.csv
 run 3 tune two.csv --pole-pairs 7 --kv 100 -o two
