@@ -92,6 +92,7 @@ hci_status cli_tune_begin(const cli_arguments *a, cli_tuning *t, hci_note *note)
                      "commands.sh NEW_FOLDER\n"
                      "set -eu\nOUT=${1:?give a new folder}\nmkdir -p \"$OUT\"\n");
     if (!a->given[TUNE_RUNS]) status = cli_replaced_set_aside(t->out, t->aside, note);
+    if (!status && !a->given[TUNE_RUNS] && !t->aside[0]) status = cli_tune_expect_finished(t->out, note);
     if (status) return status;
     if (a->given[TUNE_RUNS]) {
         snprintf(t->machine, sizeof t->machine, "%s", a->word[0]);

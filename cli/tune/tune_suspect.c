@@ -22,36 +22,50 @@ static bool is_own(const char *name)
     return false;
 }
 
-/* What is wrong with a folder in which these names stand; "" each: there is none. */
-static hci_status refuse_folder(const char *folder, const char *foreign, const char *own, hci_note *note)
-{
-    if (*foreign)
-        return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                            "tune: %s has files in it that tune did not write, such as %s; expected a new "
-                            "folder for the results: give --out another one",
-                            folder, foreign);
-    return hci_note_set(
-        note, HCI_ERROR_ARGUMENT,
-        "tune: %s has %s in it and no summary.json, which tune writes last: a call was broken "
-        "off there, or it is of something else; expected a new folder, or one that tune has "
-        "finished: delete what is in it, or give --out another one",
-        folder, own);
-}
+/* Names in a folder: of one that tune does not write, of one that it does, "" for none; whether summary.json
+ * is there, which it writes last. */
+typedef struct {
+    char foreign[256], own[256];
+    bool is_finished;
+} folder_names;
 
-hci_status cli_tune_claim_folder(const char *folder, hci_note *note)
+static hci_status look_into(const char *folder, folder_names *x, hci_note *note)
 {
-    char foreign[256] = "", own[256] = "";
-    bool is_finished = false;
+    *x = (folder_names){"", "", false};
     DIR *open = opendir(folder);
     if (!open && errno == ENOMEM) return hci_note_memory(note, folder, "looking into it");
     if (!open) return HCI_OK; /* new; what else it is, the first file that is written tells */
     for (struct dirent *at; (at = readdir(open)) != NULL;) {
         if (at->d_name[0] == '.') continue; /* itself, the one above, and what is being written */
-        snprintf(is_own(at->d_name) ? own : foreign, sizeof own, "%s", at->d_name);
-        is_finished = is_finished || strcmp(at->d_name, "summary.json") == 0;
+        snprintf(is_own(at->d_name) ? x->own : x->foreign, sizeof x->own, "%s", at->d_name);
+        x->is_finished = x->is_finished || strcmp(at->d_name, "summary.json") == 0;
     }
     closedir(open);
-    return *foreign || (*own && !is_finished) ? refuse_folder(folder, foreign, own, note) : HCI_OK;
+    return HCI_OK;
+}
+
+hci_status cli_tune_claim_folder(const char *folder, hci_note *note)
+{
+    folder_names x;
+    const hci_status status = look_into(folder, &x, note);
+    if (status || !x.foreign[0]) return status;
+    return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                        "tune: %s has files in it that tune did not write, such as %s; expected a new "
+                        "folder for the results: give --out another one",
+                        folder, x.foreign);
+}
+
+hci_status cli_tune_expect_finished(const char *folder, hci_note *note)
+{
+    folder_names x;
+    const hci_status status = look_into(folder, &x, note);
+    if (status || !x.own[0] || x.is_finished) return status;
+    return hci_note_set(
+        note, HCI_ERROR_ARGUMENT,
+        "tune: %s has %s in it and no summary.json, which tune writes last: a call was broken "
+        "off there, or it is of something else; expected a new folder, or one that tune has "
+        "finished: delete what is in it, or give --out another one",
+        folder, x.own);
 }
 
 /* ---- columns in another unit ---- */

@@ -26,6 +26,9 @@ void cli_tune_say_turns(const cli_tuning *tune, char text[CLI_TUNE_COLUMN_WORDS]
 /* Refuses a folder that has anything else in it than tune writes. */
 hci_status cli_tune_claim_folder(const char *folder, hci_note *note);
 
+/* Refuses a folder in which a call of tune did not end; after earlier results were put back. */
+hci_status cli_tune_expect_finished(const char *folder, hci_note *note);
+
 /* Sets jump_rad and is_not_followed by the recordings that are used. */
 void cli_tune_suspect(cli_tuning *tune);
 
