@@ -7,21 +7,21 @@ use_plain_build
 cd "$work" || exit 1
 
 # 4 pole pairs, 0.36 N·m/A, 5th 2 %, cogging torque of order 6, friction 0.05 N·m, zero of the sensor 0.03 N·m
-load() { # FILE CURRENT_A AHEAD_rad SPEED_rpm ZERO_deg SEED
-    awk -v i="$2" -v ahead="$3" -v rpm="$4" -v zero="$5" -v seed="$6" 'BEGIN { srand(seed); turn = 6.283185307179586; w = rpm * turn / 60
+load() { # FILE CURRENT_A AHEAD_rad SPEED_rpm ZERO_deg SEED [SENSOR_Nm]
+    awk -v i="$2" -v ahead="$3" -v rpm="$4" -v zero="$5" -v seed="$6" -v sensor="${7:-0.03}" 'BEGIN { srand(seed); turn = 6.283185307179586; w = rpm * turn / 60
         print "time_s,theta_m_rad,speed_rad_per_s,ia_A,ib_A,ic_A,torque_Nm"
-        for (k = 0; k < 2400; ++k) { x = 0.3 + (w > 0 ? 1 : -1) * 3 * turn * k / 2400; T = (w > 0 ? -0.05 : 0.05) + 0.03 + 0.06 * sin(24 * x + 0.9)
+        for (k = 0; k < 2400; ++k) { x = 0.3 + (w > 0 ? 1 : -1) * 3 * turn * k / 2400; T = (w > 0 ? -0.05 : 0.05) + sensor + 0.06 * sin(24 * x + 0.9)
             row = sprintf("%.6f,%.6f,%.4f", (x - 0.3) / w, x + zero * turn / 360 / 4, w)
             for (s = 0; s < 3; ++s) { a = 4 * x - s * turn / 3; c = i * sin(a + ahead)
                 T += 0.36 * (sin(a) + 0.02 * sin(5 * a + 0.3)) * c; row = row sprintf(",%.5f", c + 0.01 * (rand() - 0.5)) }
             print row sprintf(",%.5f", T + 0.01 * (rand() - 0.5)) } }' >"$1"
 }
-loads() { # ZERO_deg
-    load idle.csv 0 0 60 "$1" 1
-    load light.csv 2.3 0 60 "$1" 2
-    load half.csv 5.2 0 60 "$1" 3
-    load back.csv 7 0 -60 "$1" 4
-    load ahead.csv 4 0.3 150 "$1" 5
+loads() { # ZERO_deg [SENSOR_Nm]
+    load idle.csv 0 0 60 "$1" 1 "$2"
+    load light.csv 2.3 0 60 "$1" 2 "$2"
+    load half.csv 5.2 0 60 "$1" 3 "$2"
+    load back.csv 7 0 -60 "$1" 4 "$2"
+    load ahead.csv 4 0.3 150 "$1" 5 "$2"
 }
 logs='idle.csv light.csv half.csv back.csv ahead.csv'
 mkdir motor
@@ -30,26 +30,36 @@ printf 'order,amplitude_Nm_per_A,phase_rad\n1,0.36,0\n' >motor/back_emf.csv
 
 # ---- where it is right nothing is said of it; where it is off, its degrees
 
-loads 0
+loads 0 0.03
 run 0 check motor $logs
 says '^consistent'
 check "a zero that is right is off" [ "$(grep -c 'angle-offset' "$work/stdout")" -eq 0 ]
 for zero in 30 -35; do
-    loads $zero
+    loads $zero 0.03
     run 0 check motor $logs
     remedy=$((-zero))
     says "^  angle zero "
     found=$(sed -n 's/.*--angle-offset \([-0-9.]*\) takes it out.*/\1/p' "$work/stdout")
     check "an offset of ${found:-nothing} for $remedy" [ "$(awk -v a="${found:-999}" -v b="$remedy" 'BEGIN { print (a - b < 3 && b - a < 3) }')" -eq 1 ]
 done
-loads 50
+loads 50 0.03
 run 1 check motor $logs
 says '^ambiguous' 'possible run_angle_offset: the electrical zero of the angle in the recordings is (4[7-9]|5[0-3])\.[0-9] ± ' 'give --angle-offset -(4[7-9]|5[0-3])'
 check "another reading goes before the zero" [ "$(grep '^  possible' "$work/stdout" | head -n 1 | grep -c run_angle_offset)" -eq 1 ]
 
+# ---- a torque sensor that nobody tared, by an idle turn each way: neither a zero of the angle nor a unit of the back-EMF
+
+for sensor in 0.5 -0.5; do
+    loads 0 $sensor
+    load idle_back.csv 0 0 -60 0 6 $sensor
+    run 0 check motor $logs idle_back.csv
+    says '^consistent'
+    check "a sensor off by $sensor N·m turns the angle" [ "$(grep -c 'angle-offset' "$work/stdout")" -eq 0 ]
+done
+
 # ---- tune says it in its first line
 
-loads 30
+loads 30 0.03
 run 1 tune $logs --pole-pairs 4 --flux 0.09 --rated-current 7.07 --torque 2 -o tuned
 check "the first line has no zero: $(head -n 1 "$work/stdout")" \
     [ "$(head -n 1 "$work/stdout" | grep -cE 'the electrical zero of the logs is (2[89]|3[0-2])\.[0-9] ± .*begin again with --angle-offset -(2[89]|3[0-2])')" -eq 1 ]

@@ -8,9 +8,11 @@
 /* Of the torque of a recording, beside what its currents make by the magnets: iron, and what else. */
 #define TORQUE_UNKNOWN 0.04
 
-/* Of the torque at the largest current: friction, and the zero of the sensor. */
+/* Of the torque at the largest current: friction, and the zero of the sensor, where runs without current have
+ * told it and where they have not. */
 #define FRICTION_UNKNOWN 0.05
-#define OFFSET_UNKNOWN   0.01
+#define OFFSET_TOLD      0.01
+#define OFFSET_UNKNOWN   0.1
 
 /* Below this share of the largest the smaller half-axis of what the currents tell is none, … */
 #define LEAST_AXIS 0.005
@@ -71,6 +73,7 @@ typedef struct {
     double from_rad, most; /* most: the largest |p| */
     double gram[UNKNOWNS * UNKNOWNS], moment[UNKNOWNS];
     double expected, unknown; /* of the reluctance, as its torque at the largest current over that of p */
+    double offset_unknown;
     size_t count;
 } torque_fit;
 
@@ -105,7 +108,8 @@ static void torque_add(torque_fit *x, const check_run *r, const check_interpreta
 static torque_fit torque_fit_of(const check_data *data, const check_interpretation *as, const check_model *m,
                                 double from_rad)
 {
-    torque_fit x = {.from_rad = from_rad};
+    torque_fit x = {.from_rad = from_rad,
+                    .offset_unknown = data->torque_zero_is_told ? OFFSET_TOLD : OFFSET_UNKNOWN};
     const double k_Nm_per_A = 1.5 * hci_check_length(hci_check_emf_expected(1.0, m));
     for (size_t k = 0; k < data->runs; ++k)
         if (tells_torque(data, &data->run[k]))
@@ -140,7 +144,7 @@ static check_run_zero solved(torque_fit *x)
     double sine[UNKNOWNS] = {[SINE] = 1.0};
     x->gram[RELUCTANCE + RELUCTANCE * UNKNOWNS] += precision;
     x->gram[FRICTION + FRICTION * UNKNOWNS] += precision_of(FRICTION_UNKNOWN);
-    x->gram[OFFSET + OFFSET * UNKNOWNS] += precision_of(OFFSET_UNKNOWN);
+    x->gram[OFFSET + OFFSET * UNKNOWNS] += precision_of(x->offset_unknown);
     x->moment[RELUCTANCE] += precision * x->expected;
     if (hci_cholesky_factor(UNKNOWNS, x->gram)) return (check_run_zero){.is_known = false};
     hci_cholesky_solve(UNKNOWNS, x->gram, x->moment);

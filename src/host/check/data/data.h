@@ -154,6 +154,7 @@ typedef struct {
     size_t scales;
     check_run *run;
     size_t runs;
+    bool torque_zero_is_told;  /* by runs without current in both directions; the torques are without it */
     double no_current_A;       /* runs with less are without current */
     int pole_pairs_of_ripple;  /* that the orders of the ripple without load fit best; 0: no such recording */
     double counted_pole_pairs; /* by the recordings; 0: not counted */

@@ -128,6 +128,49 @@ static double no_current(const check_data *data)
     return CHECK_NO_CURRENT * most;
 }
 
+/* ---- the zero of the torque sensor */
+
+/* Of two speeds, that friction is alike at. */
+#define LIKE_SPEEDS 1.25
+
+/* Without a current: the mean torque and speed of each direction. */
+typedef struct {
+    double torque[2], speed[2], count[2];
+} open_torque;
+
+static open_torque open_torque_of(const check_data *data)
+{
+    open_torque open = {{0.0}, {0.0}, {0.0}};
+    for (size_t k = 0; k < data->runs; ++k) {
+        const check_run *r = &data->run[k];
+        const double speed = r->has_speed ? r->speed : r->angle_rate;
+        if (!r->has_torque || hci_check_has_current(data, r) || !(fabs(speed) > 0.0)) continue;
+        open.torque[speed < 0.0] += (double)r->count * r->torque_mean;
+        open.speed[speed < 0.0] += (double)r->count * fabs(speed);
+        open.count[speed < 0.0] += (double)r->count;
+    }
+    return open;
+}
+
+/* Friction turns its sign with the motion, the zero of the sensor does not: it leaves the torques of all
+ * recordings where both directions tell it. */
+static void take_torque_zero(check_data *data)
+{
+    const open_torque open = open_torque_of(data);
+    const double forward = open.speed[0] / open.count[0], backward = open.speed[1] / open.count[1];
+    data->torque_zero_is_told = forward < LIKE_SPEEDS * backward && backward < LIKE_SPEEDS * forward;
+    if (!data->torque_zero_is_told) return;
+    const double zero = 0.5 * (open.torque[0] / open.count[0] + open.torque[1] / open.count[1]);
+    for (size_t k = 0; k < data->runs; ++k) {
+        check_run *r = &data->run[k];
+        if (!r->has_torque) continue;
+        r->torque_mean -= zero;
+        r->torque_at_speed -= zero;
+        for (size_t n = 0; n < r->count && r->torque; ++n)
+            r->torque[n] -= zero;
+    }
+}
+
 hci_status hci_check_runs_read(const char *const *path, size_t count, const hci_run_options *reading,
                                check_data *data, hci_note *remark, hci_note *note)
 {
@@ -138,6 +181,7 @@ hci_status hci_check_runs_read(const char *const *path, size_t count, const hci_
     for (size_t k = 0; k < count && !status; ++k)
         status = run_read(path[k], reading, data, &remark[k], note);
     data->no_current_A = no_current(data);
+    if (!status) take_torque_zero(data);
     return status;
 }
 
