@@ -37,7 +37,7 @@ slow_turn() { # FILE SHARE: 7 pole pairs at 12 rpm, forward and back
     awk -v share="$2" 'BEGIN { print "t,i_q,theta_m"; for (k = 0; k < 2000; ++k) { t = 0.01 * k; way = t < 10 ? 1 : -1; x = 1.2566 * (10 + (t - 10) * way)
         printf "%.2f,%.5f,%.5f\n", t, way * 0.05 + 0.3 * sin(84 * x + 0.4), x + share * sin(84 * x) / 84 } }' >"$1"
 }
-slow_turn "$work/slow.csv" 0.1
+slow_turn "$work/slow.csv" 0.02
 run 0 tune "$work/slow.csv" --pole-pairs 7 --kv 120 -q -o "$work/tuned"
 slow_turn "$work/jerks.csv" 0.9
 run 1 tune "$work/jerks.csv" --pole-pairs 7 --kv 120 -q -o "$work/jerks"

@@ -11,35 +11,80 @@
 #include "host/recording/rotor_frame.h"
 
 #define RESOLVED  0.48 /* orders for each sample of a turn */
+#define APART     0.7  /* of the samples, that lie at places of their own: 0.885 of those at random */
 #define LEAST_ARC 0.02 /* electrical turns: a shaft that is held moves as much, and tells no order */
 
-enum { MOST_PERIODS = 1200 /* in a mechanical turn */, MOST_ELECTRICAL = 96, FEW_A_TURN = 4 };
+enum {
+    MOST_PERIODS = 1200 /* in a mechanical turn */,
+    MOST_ELECTRICAL = 96,
+    FEW_A_TURN = 4,
+    CELLS_A_SAMPLE = 4
+};
 
 /* ---- sums ---- */
 
-/* The finest order that half of the steps of angle resolve. */
-static double range_of(const hci_binned_samples *samples, const hci_segment *x)
+/* Where the samples of a segment lie. */
+typedef struct {
+    double least, range; /* of the angle in rad */
+    size_t places;       /* in one turn at most, that are told apart */
+} angles;
+
+static angles angles_of(const hci_binned_samples *samples, const hci_segment *x)
 {
-    double least = INFINITY, most = -INFINITY;
+    angles a = {INFINITY, 0.0, x->count};
+    double most = -INFINITY;
     for (size_t k = x->first; k < x->first + x->count; ++k) {
-        least = fmin(least, samples->sample[k].reading.theta_m_rad);
+        a.least = fmin(a.least, samples->sample[k].reading.theta_m_rad);
         most = fmax(most, samples->sample[k].reading.theta_m_rad);
     }
-    return most - least;
+    a.range = most - a.least;
+    return a;
 }
 
-/* Periods in a mechanical turn that the samples tell. */
-static double resolved_periods(const hci_candidates_source *s)
+/* Counts the cells of a turn, or of the part of it that is covered, in which samples lie, four for each: a
+ * shaft that is read at the same places forward and back, or turn by turn, tells no more orders than once. */
+static bool count_places(const hci_binned_samples *samples, const hci_segment *x, angles *a)
 {
-    double sum = 0.0, turns = 0.0;
+    const size_t cells = CELLS_A_SAMPLE * x->count;
+    const double turn = 2.0 * HCI_PI, arc = fmin(a->range, turn);
+    if (!(arc > 0.0)) return true;
+    unsigned char *seen = hci_memory_new(cells, sizeof *seen);
+    if (!seen) return false;
+    a->places = 0;
+    for (size_t k = x->first; k < x->first + x->count; ++k) {
+        const double away = samples->sample[k].reading.theta_m_rad - a->least;
+        const double place = fmod(away, turn) / arc * (double)cells;
+        unsigned char *cell = &seen[(size_t)fmin(place, (double)(cells - 1))];
+        a->places += !*cell;
+        *cell = 1;
+    }
+    hci_memory_free(seen);
+    return true;
+}
+
+/* Samples in a mechanical turn of a segment: by the way that it covers, or by its places where many fall
+ * together. */
+static double samples_a_turn(const angles *a, size_t count)
+{
+    const double by_way = (double)count * 2.0 * HCI_PI / a->range;
+    const double by_place = (double)a->places * 2.0 * HCI_PI / fmin(a->range, 2.0 * HCI_PI);
+    return (double)a->places < APART * (double)count ? fmin(by_way, by_place) : by_way;
+}
+
+/* Periods in a mechanical turn that the samples tell; false when memory is out. */
+static bool resolved_periods(const hci_candidates_source *s, double *periods)
+{
+    double sum = 0.0, covered = 0.0;
     for (size_t k = 0; k < s->samples->segment_count; ++k) {
         const hci_segment *x = &s->samples->segment[k];
-        const double covered = range_of(s->samples, x) / (2.0 * HCI_PI);
-        if (covered * s->machine->pole_pairs < LEAST_ARC) continue;
-        sum += (double)x->count;
-        turns += covered;
+        angles a = angles_of(s->samples, x);
+        if (a.range * s->machine->pole_pairs < LEAST_ARC * 2.0 * HCI_PI) continue;
+        if (!count_places(s->samples, x, &a)) return false;
+        sum += samples_a_turn(&a, x->count) * a.range;
+        covered += a.range;
     }
-    return turns > 0.0 ? RESOLVED * sum / turns : (double)INFINITY;
+    *periods = covered > 0.0 ? RESOLVED * sum / covered : (double)INFINITY;
+    return true;
 }
 
 static size_t most_periods(const hci_candidates_source *s, double resolved)
@@ -123,9 +168,10 @@ static void lines_fill(const sums *sum, size_t runs, hci_candidate_orders *lines
 /* Everything in one block, which begins at `still`. */
 bool hci_candidate_orders_make(const hci_candidates_source *s, size_t stride, hci_candidate_orders *lines)
 {
-    const double resolved = resolved_periods(s);
-    const size_t runs = s->samples->run_count, count = most_periods(s, resolved) / stride + 1;
+    double resolved;
     memset(lines, 0, sizeof *lines);
+    if (!resolved_periods(s, &resolved)) return false;
+    const size_t runs = s->samples->run_count, count = most_periods(s, resolved) / stride + 1;
     lines->resolved = resolved / s->machine->pole_pairs;
     lines->stride = stride;
     lines->slots = s->slots;

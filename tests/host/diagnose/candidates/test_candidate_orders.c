@@ -65,6 +65,28 @@ static void find(size_t stride)
     TEST_ASSERT_TRUE(hci_candidate_orders_make(&source, stride, &orders));
 }
 
+/* A turn forward and back at the same places tells no more orders than the turn forward; at places between
+ * them it tells as many as its samples do, and so does a turn with the shaft read at random places. */
+static void test_places_that_are_read_twice(void)
+{
+    static const struct {
+        double between, samples_a_turn;
+    } CASE[] = {{0.0, 0.5 * SAMPLES}, {0.5, SAMPLES}};
+    for (size_t c = 0; c < 2; ++c) {
+        for (size_t k = 0; k < COUNT; ++k) {
+            const size_t at = k % SAMPLES, place = at < SAMPLES / 2 ? at : SAMPLES - 1 - at;
+            sample[k].reading.theta_m_rad =
+                4.0 * REF_PI / SAMPLES * ((double)place + (at < SAMPLES / 2 ? 0.0 : CASE[c].between));
+        }
+        find(1);
+        TEST_ASSERT_DOUBLE_WITHIN(0.02 * SAMPLES / P, 0.48 * CASE[c].samples_a_turn / P, orders.resolved);
+    }
+    for (size_t k = 0; k < COUNT; ++k)
+        sample[k].reading.theta_m_rad = ref_uniform(&seed, 0.0, 2.0 * REF_PI);
+    find(1);
+    TEST_ASSERT_DOUBLE_WITHIN(0.02 * SAMPLES / P, 0.48 * SAMPLES / P, orders.resolved);
+}
+
 /* A wave with so many periods in a turn, with the size of some law of the current. */
 static void hide(size_t periods, double amplitude_Nm, double exponent)
 {
@@ -325,6 +347,7 @@ static void test_laws_of_growth(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_places_that_are_read_twice);
     RUN_TEST(test_what_an_order_explains);
     RUN_TEST(test_means_have_no_orders);
     RUN_TEST(test_noise_stands_out_at_the_rate_of_the_limit);
