@@ -160,7 +160,8 @@ void cli_tune_say_turns(const cli_tuning *t, char text[CLI_TUNE_COLUMN_WORDS])
     text[0] = '\0';
     for (size_t k = 0; k < t->runs.count && text[0] == '\0'; ++k) {
         const hci_run *r = &t->runs.run[k];
-        const double turns = cli_tune_cover_of(r).turns * 2.0 * HCI_PI, whole = round(turns);
+        const double turns = fmax(cli_tune_cover_of(r).turns * 2.0 * HCI_PI, r->swept_rad),
+                     whole = round(turns);
         if (!may_be_in_turns(r) || whole < 1.0 || fabs(turns - whole) > NEAR_WHOLE * whole) continue;
         char speed[CLI_TUNE_COLUMN_WORDS] = "";
         cli_tune_say_column("theta_m_turn", r->angle_column, column);

@@ -386,6 +386,16 @@ static void say(const rows *x, size_t count, hci_note *remark)
                      count, x->waiting > 0 ? "waits" : "speeds up, slows down or turns round");
 }
 
+static double range_of(const double *x, size_t count)
+{
+    double least = x[0], most = x[0];
+    for (size_t k = 1; k < count; ++k) {
+        least = fmin(least, x[k]);
+        most = fmax(most, x[k]);
+    }
+    return most - least;
+}
+
 bool hci_settled_rows_keep(hci_run *run, int pole_pairs)
 {
     if (run->time_s == NULL || run->theta_m_rad == NULL || run->count < LEAST) return true;
@@ -394,6 +404,7 @@ bool hci_settled_rows_keep(hci_run *run, int pole_pairs)
     if (x.out == NULL) return false;
     find_parts(&x);
     if (x.waiting + x.others > 0) {
+        run->swept_rad = range_of(run->theta_m_rad, run->count);
         say(&x, run->count, &run->remark);
         keep(run, x.out);
     }

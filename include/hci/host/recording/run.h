@@ -62,8 +62,9 @@ typedef struct {
     bool rough_clock;   /* its stamps came early and late by turns, and were mended or are so still */
     char angle_like[HCI_RUN_NAME]; /* zero_is_unknown, and this, as --column takes it, may read an angle that
                                     * stands in the file; "": none */
-    int current_way; /* of a run without a torque sensor, whose i_q was recorded: 1 where it accelerates and
-                      * overcomes friction, -1 where it works against the motion, 0 where that is not told */
+    int current_way;  /* of a run without a torque sensor, whose i_q was recorded: 1 where it accelerates and
+                       * overcomes friction, -1 where it works against the motion, 0 where that is not told */
+    double swept_rad; /* mechanical, of all rows, where some of a slow turn were left out; else 0 */
     bool torque_is_typed; /* one number in every row beside a current that varies: no measurement, not used */
     bool is_electrical;   /* an electrical angle was recorded; else its zero is supposed to be that of the
                            * mechanical one */
