@@ -65,7 +65,7 @@ void cli_tune_add_option(cli_tune_line *c, const char *name, const char *value)
 
 const char *cli_tune_offset(const cli_tuning *t)
 {
-    return t->has_offset ? t->offset : t->arguments->value[ANGLE_OFFSET];
+    return t->offset[0] ? t->offset : t->arguments->value[ANGLE_OFFSET];
 }
 
 void cli_tune_add_reading(cli_tune_line *c, const cli_tuning *t)

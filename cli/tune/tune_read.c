@@ -12,6 +12,7 @@
 #include "cli/tune/tune_options.h"
 #include "cli/tune/tune_read.h"
 #include "cli/tune/tune_suspect.h"
+#include "hci/host/base/number.h"
 #include "hci/host/currents/target.h"
 #include "hci/host/emit/emit.h"
 #include "hci/host/report/write.h"
@@ -157,6 +158,17 @@ static void release_inputs(cli_tuning *t)
     hci_machine_release(&t->declared);
 }
 
+/* An offset that was given with a unit, in degrees, which all later commands take. */
+static void take_given_offset(cli_tuning *t)
+{
+    const char *word = t->arguments->value[ANGLE_OFFSET];
+    double plain;
+    if (!word || t->offset[0] || hci_number_parse(word, &plain)) return;
+    for (size_t k = 0; k < t->runs.count && !t->offset[0]; ++k)
+        if (t->runs.run[k].zero_is_given)
+            snprintf(t->offset, sizeof t->offset, "%.10g", t->runs.run[k].zero_offset_rad * 180.0 / HCI_PI);
+}
+
 hci_status cli_tune_read_inputs(cli_tuning *t, hci_note *note)
 {
     const cli_arguments *a = t->arguments;
@@ -173,6 +185,7 @@ hci_status cli_tune_read_inputs(cli_tuning *t, hci_note *note)
     status = hci_runs_read(t->list, &(hci_runs_options){t->reading.run, cli_progress, NULL}, &t->runs, note);
     if (status && t->is_own) hci_tuning_name_log(t->out, a->word, a->words, note);
     if (!status) cli_tune_cover_set(t);
+    if (!status) take_given_offset(t);
     return status;
 }
 

@@ -75,7 +75,8 @@ typedef struct {
     double turns;         /* mechanical, that a recording over time covers; 0: none does */
     double highest_order; /* electrical, that the samples of their torque tell; 0: not told */
     bool has_offset;      /* recordings are read with an angle offset that was found here */
-    char offset[32];      /* in degrees, as --angle-offset takes it */
+    char offset[32]; /* found here, or given with a unit: in degrees, as --angle-offset takes it; "": neither
+                      */
     double emf_to_sheet;  /* has_emf: the measured back-EMF to that of the data sheet */
     double cogging_reach; /* order up to which a holding test was looked at; 0: none */
     hci_waveform cogging; /* of a holding test; empty: none */

@@ -63,5 +63,8 @@ loads 30 0.03
 run 1 tune $logs --pole-pairs 4 --flux 0.09 --rated-current 7.07 --torque 2 -o tuned
 check "the first line has no zero: $(head -n 1 "$work/stdout")" \
     [ "$(head -n 1 "$work/stdout" | grep -cE 'the electrical zero of the logs is (2[89]|3[0-2])\.[0-9] ± .*begin again with --angle-offset -(2[89]|3[0-2])')" -eq 1 ]
+tuned="$logs --pole-pairs 4 --flux 0.09 --rated-current 7.07 --torque 2"
+run 0 tune $tuned --angle-offset=-0.5235988rad -o radians
+check "an offset in radians is not handed on in degrees" grep -q 'emit .*--angle-offset -30.0000' radians/commands.sh
 
 finish
