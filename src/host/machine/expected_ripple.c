@@ -25,7 +25,9 @@ const char *hci_ripple_state_words(hci_ripple_state state)
         "Ripple not known: the recordings tell of no order of the torque, or of the lowest alone; record "
         "ones "
         "with more samples in an electrical turn",
-        "Ripple not known: the diagnosis of this machine has not explained its recordings"};
+        "Ripple not known: the diagnosis of this machine has not explained its recordings",
+        "Ripple not known: what a load once or twice a turn makes with harmonics of the back-EMF is not told "
+        "from cogging torque; record it without that load"};
     return WORDS[state];
 }
 

@@ -16,7 +16,9 @@ typedef enum {
     HCI_RIPPLE_TOO_FAR, /* parts of one or two recordings tell nothing of currents so far outside of them */
     HCI_RIPPLE_UNTOLD,  /* the recordings tell of no order of the torque, or of the lowest alone, such as ones
                          * with a few samples in a turn */
-    HCI_RIPPLE_UNEXPLAINED /* the diagnosis that the machine comes from has not explained its recordings */
+    HCI_RIPPLE_UNEXPLAINED, /* the diagnosis that the machine comes from has not explained its recordings */
+    HCI_RIPPLE_SWAYED /* a load that turns with the shaft makes with the back-EMF what looks like cogging
+                         torque */
 } hci_ripple_state;
 
 /* Why it is not known in words, "" where it is; a static string. */
