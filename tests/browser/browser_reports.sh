@@ -33,11 +33,11 @@ run 0 simulate "$work/small" "$work/turn.csv" --currents "$work/sine.csv" -q -o 
 printf 'order,set\n1,pos\n5,neg\n' >"$work/set.csv"
 run 1 solve data/machine_a --target data/scenarios/02/target.csv --harmonics "$work/set.csv" -q -o "$work/missed" --report
 # a log in jerks, and one that is tuned
-slow_turn() { # FILE SHARE: 7 pole pairs at 12 rpm, forward and back
+slow_turn() { # FILE SHARE: 7 pole pairs at 12 rpm, forward and back; cogging torque has no mean over the angle
     awk -v share="$2" 'BEGIN { print "t,i_q,theta_m"; for (k = 0; k < 2000; ++k) { t = 0.01 * k; way = t < 10 ? 1 : -1; x = 1.2566 * (10 + (t - 10) * way)
-        printf "%.2f,%.5f,%.5f\n", t, way * 0.05 + 0.3 * sin(84 * x + 0.4), x + share * sin(84 * x) / 84 } }' >"$1"
+        printf "%.2f,%.5f,%.5f\n", t, way * 0.05 + 0.3 * (sin(84 * x + 0.4) - share / 2 * sin(0.4)), x + share * sin(84 * x) / 84 } }' >"$1"
 }
-slow_turn "$work/slow.csv" 0.02
+slow_turn "$work/slow.csv" 0.1
 run 0 tune "$work/slow.csv" --pole-pairs 7 --kv 120 -q -o "$work/tuned"
 slow_turn "$work/jerks.csv" 0.9
 run 1 tune "$work/jerks.csv" --pole-pairs 7 --kv 120 -q -o "$work/jerks"

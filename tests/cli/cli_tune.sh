@@ -118,11 +118,11 @@ check "a table although a convention is broken" [ ! -e slip/table ]
 # ---- a slow turn of a hobby drive: forward and back, which nobody has to say; the encoder's zero is not known; a shaft that sticks is refused
 
 # NAME SHARE: i_q answers cogging torque of order 12 at 12 rpm; its speed varies by this share at that order
-slow_turn() {
+slow_turn() { # FILE SHARE: the speed varies by it; cogging torque has no mean over the angle
     awk -v share="$2" 'BEGIN { srand(1); print "ms_today;erpm;q_axis_current;encoder_position"; turn = 6.283185307179586; w = 1.2566
         for (k = 0; k < 2000; ++k) { t = 0.01 * k; way = t < 10 ? 1 : -1; x = w * (10 + (t - 10) * way); n = 84 * x
             printf "%d;%.3f;%.5f;%.5f\n", 1000 * t, way * w * 66.84507 * (1 + share * cos(n)),
-                way * 0.05 + 0.3 * sin(n + 0.4) + 0.004 * (rand() - 0.5), (x + share * sin(n) / 84) * 57.29577951 % 360 } }' >"$1"
+                way * 0.05 + 0.3 * (sin(n + 0.4) - share / 2 * sin(0.4)) + 0.004 * (rand() - 0.5), (x + share * sin(n) / 84) * 57.29577951 % 360 } }' >"$1"
 }
 slow_turn slow.csv 0.1
 run 0 tune slow.csv --pole-pairs 7 --kv 120 -o slow
@@ -132,7 +132,7 @@ says '^tuned: .* in the model; what harmonics of the real back-EMF add under loa
 check "cogging torque is found twice: $(grep -c 'cogging' "$work/stdout")" [ "$(grep -c '^  order 12: ' "$work/stdout")" = 0 ]
 check "what was not looked at is known to 0 ± 0" [ "$(grep -c '= 0 ± 0' slow/summary.json)" -eq 0 ]
 check "a shaft with friction has sensors to correct" [ "$(grep -c 'true current' slow/currents/summary.json)" -eq 0 ]
-check "a map of one electrical turn for a table of several" grep -q 'emit slow/currents --name tuned --for moteus ' slow/summary.json
+check "orders that the motor has not, in a table of several turns" grep -q 'emit slow/currents --name tuned --for simplefoc ' slow/summary.json
 check "not said up to which torque" grep -q 'N·m, for which it was solved' slow/summary.json
 check "the electrical speed does not count the pole pairs" [ "$(grep -c 'nothing in these logs counts them' slow/summary.json)" -eq 0 ]
 check "the table's period is not said" grep -q "the angle is $(sed -n 's/.*2^32 = \([0-9]* electrical turns*\).*/\1/p' slow/table/tuned.h) from" slow/summary.json

@@ -12,7 +12,7 @@
  * told it and where they have not. */
 #define FRICTION_UNKNOWN 0.05
 #define OFFSET_TOLD      0.01
-#define OFFSET_UNKNOWN   0.1
+#define OFFSET_UNKNOWN   0.03
 
 /* Below this share of the largest the smaller half-axis of what the currents tell is none, … */
 #define LEAST_AXIS 0.005
