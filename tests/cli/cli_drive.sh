@@ -3,6 +3,7 @@
 # all, the same bytes twice, and the C that is written.
 #   cli_drive.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"
+use_plain_build # the loop and its simulation have sanitizers in tests/host/simulate and tests/host/drive
 cd "$source_dir" || exit 1
 
 drive=data/drive/machine_a_10kHz.csv

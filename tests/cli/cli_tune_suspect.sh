@@ -2,6 +2,7 @@
 # What tune says of recordings that can be read and are not what they seem, and of a folder that is somebody's.
 #   cli_tune_suspect.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"
+use_plain_build # what tune says has sanitizers in cli_tune_logs
 cd "$work" || exit 1
 
 # NAME ANGLE CURRENT: two turns forward and back of seven pole pairs at 6 rpm; angle and current as awk says, of the angle x and the current i that
