@@ -196,7 +196,7 @@ bool cli_tune_is_far_beyond(const cli_tuning *t)
 
 bool cli_tune_is_below_idle(const cli_tuning *t)
 {
-    bool is_idle = t->runs.count > 0;
+    bool is_idle = t->runs.count > 0 && !(t->once_a_turn_Nm > 0.0); /* a load that turns is one */
     for (size_t k = 0; k < t->runs.count; ++k) {
         const hci_run *r = &t->runs.run[k];
         is_idle = is_idle && r->torque_source == HCI_TORQUE_HOLDING && !hci_run_is_loaded(r, r->pole_pairs);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cli/tune/tune_facts.h"
+#include "hci/host/diagnose/turning_load.h"
 
 /* ---- effects ---- */
 
@@ -258,26 +259,21 @@ static bool is_of_current(const cli_tuning *t)
  * and poles are. */
 static void say_once_a_turn(cli_tuning *t, const order_sum *sum, size_t count)
 {
-    enum { MOST_A_TURN = 2 };
-    const double turn = 1.0 / t->declared.model.pole_pairs;
-    double most_Nm = 0.0;
+    const int pole_pairs = t->declared.model.pole_pairs;
+    t->once_a_turn_Nm = t->diagnosis.uncertainty.origin.turning_load_Nm;
     if (has_sensor(t)) return;
-    for (size_t k = 0; k < count; ++k)
-        most_Nm = fmax(most_Nm, hypot(sum[k].sine_Nm, sum[k].cosine_Nm));
     for (size_t k = 0; k < count; ++k) {
         const double amplitude_Nm = hypot(sum[k].sine_Nm, sum[k].cosine_Nm);
         char words[CLI_TUNE_ORDER];
-        if (sum[k].order >= 1.0 || sum[k].order > MOST_A_TURN * turn + HCI_ORDER_TOLERANCE ||
-            amplitude_Nm < SURE * sum[k].std_error_Nm)
+        if (!hci_is_turning_load_order(sum[k].order, pole_pairs) || amplitude_Nm < SURE * sum[k].std_error_Nm)
             continue;
-        if (amplitude_Nm > MUCH * most_Nm) t->once_a_turn_Nm = fmax(t->once_a_turn_Nm, amplitude_Nm);
         hci_tuning_say(
             &t->tuning, HCI_TUNING_UNKNOWN,
             "Whether the %.3g N·m of order %s, %.3g times a mechanical turn, are of the motor: a "
             "weight on an arm, a crank, or what is out of balance on a shaft that does not stand "
             "upright, makes them as well. The table takes them away as they are; without that load "
             "it would add them. Record again with nothing on the shaft, or with the shaft upright.",
-            amplitude_Nm, cli_tune_order_words(t, sum[k].order, words), sum[k].order / turn);
+            amplitude_Nm, cli_tune_order_words(t, sum[k].order, words), sum[k].order * pole_pairs);
     }
 }
 

@@ -185,11 +185,11 @@ static hci_status open_torque(cli_tuning *t, hci_note *note)
     return status;
 }
 
-/* A bound on the ripple is one of orders that were looked at, and of what the motor makes. */
-static void leave_bound_out(hci_expected_ripple *e, hci_ripple_state why)
+/* A bound on the ripple is one of orders that were looked at. */
+static void leave_bound_out(hci_expected_ripple *e)
 {
     if (e->state != HCI_RIPPLE_KNOWN) return;
-    e->state = why;
+    e->state = HCI_RIPPLE_UNTOLD;
     e->peak_to_peak_Nm = e->T_ripple_percent = e->middle_percent = e->error_peak_to_peak_Nm = NAN;
     e->worst_order = e->worst_order_Nm = e->mean_Nm = e->mean_error_Nm = e->outside_share = e->outside_A =
         NAN;
@@ -218,8 +218,7 @@ hci_status cli_tune_solve(cli_tuning *t, hci_note *note)
     cli_tune_note_line(t, &c, true);
     t->tuning.solved = hci_solve(&t->corrected, &options, &t->solution, note);
     cli_progress_end();
-    if (cli_tune_is_coarse(t)) leave_bound_out(&t->solution.expected, HCI_RIPPLE_UNTOLD);
-    if (t->once_a_turn_Nm > 0.0) leave_bound_out(&t->solution.expected, HCI_RIPPLE_SWAYED);
+    if (cli_tune_is_coarse(t)) leave_bound_out(&t->solution.expected);
     if (t->tuning.solved > HCI_NOT_REACHED) return t->tuning.solved;
     t->is_solved = true;
     t->tuning.solution = &t->solution;

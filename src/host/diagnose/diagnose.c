@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "hci/host/diagnose/turning_load.h"
 #include "host/base/memory.h"
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/findings.h"
@@ -538,13 +539,14 @@ static double unexplained_ripple_Nm(const hci_diagnosis *d)
 }
 
 /* Goes with the corrected machine, whether or not anything is stated of it. */
-static void origin_fill(hci_diagnosis *d)
+static void origin_fill(const task *t, hci_diagnosis *d)
 {
     hci_machine_origin *origin = &d->uncertainty.origin;
     snprintf(origin->verdict, sizeof origin->verdict, "%s", hci_diagnosis_verdict_name(d->verdict));
     snprintf(origin->search, sizeof origin->search, "%s", hci_diagnosis_search_name(d->search));
     origin->unexplained_Nm = unexplained_ripple_Nm(d);
     origin->constant_is_declared = d->held_constant_Nm_per_A > 0.0;
+    origin->turning_load_Nm = hci_turning_load_Nm(&t->machine->model, &d->effects.list, t->runs);
 }
 
 static bool is_usable(const hci_runs *runs, size_t k)
@@ -773,7 +775,7 @@ hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *decl
     const task all = {machine, declared, runs, options, NULL, NULL, NULL, 0.0};
     const hci_status status = diagnose_runs(&all, diagnosis, note);
     if (status) return status;
-    origin_fill(diagnosis);
+    origin_fill(&all, diagnosis);
     return diagnosis->verdict >= HCI_DIAGNOSIS_AMBIGUOUS || diagnosis->search != HCI_WORK_COMPLETE ||
                    diagnosis->odd.file
                ? HCI_NOT_REACHED

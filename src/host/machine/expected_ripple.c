@@ -244,7 +244,7 @@ static hci_expected_ripple nothing(hci_ripple_state state)
                                  NAN,
                                  false,
                                  0,
-                                 {"", "", NAN, false},
+                                 {"", "", NAN, false, 0.0},
                                  NAN,
                                  NAN,
                                  NAN,
@@ -377,6 +377,8 @@ hci_status hci_expected_ripple_find(const hci_ripple_path *path, const hci_uncer
 {
     const hci_status status = find(path, u, expected, note);
     if (status) return status;
+    if (expected->state == HCI_RIPPLE_KNOWN && u->origin.turning_load_Nm > 0.0)
+        *expected = nothing(HCI_RIPPLE_SWAYED);
     if (u) expected->origin = u->origin;
     if (expected->origin.constant_is_declared) expected->mean_error_Nm = NAN; /* as good as the sheet */
     fill_unbelievable(path, expected);

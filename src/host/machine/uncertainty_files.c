@@ -181,7 +181,10 @@ static hci_status origin_row(const hci_csv *csv, size_t row, hci_machine_origin 
         origin->constant_is_declared = true;
         return word_of(csv, row, CONSTANTS, sizeof word, word, note);
     }
-    return hci_csv_error(csv, "name", row, note, "verdict, search, unexplained_ripple or torque_constant",
+    if (strcmp(name, "turning_load") == 0)
+        return cell_read(csv, "value", row, &origin->turning_load_Nm, note);
+    return hci_csv_error(csv, "name", row, note,
+                         "verdict, search, unexplained_ripple, torque_constant or turning_load",
                          "let diagnose write the file again, or remove it");
 }
 
@@ -200,7 +203,7 @@ static hci_status origin_read(const char *path, hci_machine_origin *origin, hci_
 hci_status hci_uncertainty_read_machine(const char *folder, hci_uncertainty *u, hci_note *note)
 {
     char uncertainty[PATH_SIZE], measured[PATH_SIZE], diagnosis[PATH_SIZE];
-    hci_machine_origin origin = {"", "", NAN, false};
+    hci_machine_origin origin = {"", "", NAN, false, 0.0};
     memset(u, 0, sizeof *u);
     hci_status status = hci_machine_path(uncertainty, sizeof uncertainty, folder, UNCERTAINTY, note);
     if (!status) status = hci_machine_path(measured, sizeof measured, folder, MEASURED, note);
@@ -279,6 +282,11 @@ static hci_status origin_write(hci_output *out, const hci_machine_origin *origin
                     origin->search);
     cell_write(out, origin->unexplained_Nm, ',');
     hci_output_text(out, "Nm\n%s", origin->constant_is_declared ? "torque_constant,declared,\n" : "");
+    if (origin->turning_load_Nm > 0.0) {
+        hci_output_text(out, "turning_load,");
+        cell_write(out, origin->turning_load_Nm, ',');
+        hci_output_text(out, "Nm\n");
+    }
     return HCI_OK;
 }
 

@@ -32,15 +32,27 @@ enum { FEW_WINDOWS = 32, MOST_WINDOWS = 512, LEAST_WINDOWS = 16, LEAST_SAMPLES =
 #define DECIDED 0.9
 #define GOES    0.1
 
+enum { WAVES = 4 }; /* sine and cosine of once and twice a turn */
+
 typedef struct {
     double time, speed, iq, sign; /* means over a window */
+    double wave[WAVES];           /* likewise; 0 without an angle */
     bool is_told;                 /* what friction does in it: the shaft goes one way */
 } window;
 
 /* One row of the fit, about its mean where a constant is fitted too. */
 typedef struct {
     double acceleration, sign, iq;
+    double wave[WAVES];
 } row;
+
+static void add_waves(double theta_m_rad, double share, double wave[WAVES])
+{
+    for (int n = 1; n <= WAVES / 2; ++n) {
+        wave[2 * n - 2] += share * sin(n * theta_m_rad);
+        wave[2 * n - 1] += share * cos(n * theta_m_rad);
+    }
+}
 
 static size_t cut(const hci_effort_samples *s, size_t wanted, window out[MOST_WINDOWS])
 {
@@ -55,6 +67,7 @@ static size_t cut(const hci_effort_samples *s, size_t wanted, window out[MOST_WI
             out[j].speed += share * s->speed[k];
             out[j].iq += share * s->iq[k];
             out[j].sign += share * ((s->speed[k] > 0.0) - (s->speed[k] < 0.0));
+            if (s->theta_m_rad) add_waves(s->theta_m_rad[k], share, out[j].wave);
         }
         out[j].is_told = fabs(out[j].sign) > DECIDED && fabs(out[j].speed) > GOES * rms_speed;
     }
@@ -118,9 +131,12 @@ static size_t rows_of(const window *w, size_t count, row *out)
     for (size_t j = 1; j + 1 < count; ++j) {
         const double span = w[j + 1].time - w[j - 1].time;
         if (!(span > 0.0 && w[j - 1].is_told && w[j].is_told && w[j + 1].is_told)) continue;
-        out[rows++] = (row){.acceleration = (w[j + 1].speed - w[j - 1].speed) / span,
-                            .sign = 0.25 * w[j - 1].sign + 0.5 * w[j].sign + 0.25 * w[j + 1].sign,
-                            .iq = 0.25 * w[j - 1].iq + 0.5 * w[j].iq + 0.25 * w[j + 1].iq};
+        out[rows] = (row){.acceleration = (w[j + 1].speed - w[j - 1].speed) / span,
+                          .sign = 0.25 * w[j - 1].sign + 0.5 * w[j].sign + 0.25 * w[j + 1].sign,
+                          .iq = 0.25 * w[j - 1].iq + 0.5 * w[j].iq + 0.25 * w[j + 1].iq};
+        for (int n = 0; n < WAVES; ++n)
+            out[rows].wave[n] = 0.25 * w[j - 1].wave[n] + 0.5 * w[j].wave[n] + 0.25 * w[j + 1].wave[n];
+        ++rows;
     }
     return rows;
 }
@@ -163,7 +179,7 @@ static equations equations_of(const row *r, size_t rows)
 }
 
 /* Variance of a row, raised by what it has in common with the one before it. */
-static double variance_of(const row *r, size_t rows, double a, double c)
+static double variance_of(const row *r, size_t rows, size_t unknowns, double a, double c)
 {
     double square = 0.0, beside = 0.0, before = 0.0;
     for (size_t j = 0; j < rows; ++j) {
@@ -173,7 +189,7 @@ static double variance_of(const row *r, size_t rows, double a, double c)
         before = rest;
     }
     const double alike = square > 0.0 ? fmin(0.95, fmax(0.0, beside / square)) : 0.0;
-    return square / (double)(rows - 3) * (1.0 + alike) / (1.0 - alike);
+    return square / (double)(rows - unknowns) * (1.0 + alike) / (1.0 - alike);
 }
 
 /* Of a fit without noise a sign is as sure as can be. */
@@ -182,25 +198,93 @@ static double in_errors(double value, double variance)
     return fmax(-1e6, fmin(1e6, value / sqrt(fmax(variance, 1e-12 * value * value))));
 }
 
-static hci_effort fit(row *r, size_t rows)
+/* Of rows about what else they have; square: mean of i_q², of which c is a share. */
+static hci_effort fit(const row *r, size_t rows, size_t unknowns, double square)
 {
-    hci_effort effort = {.has_both_ways = turns_both_ways(r, rows)};
-    const row mean = mean_of(r, rows);
-    double square = 0.0;
-    for (size_t j = 0; j < rows; ++j) {
-        square += r[j].iq * r[j].iq / (double)rows;
-        if (effort.has_both_ways)
-            r[j].acceleration -= mean.acceleration, r[j].sign -= mean.sign, r[j].iq -= mean.iq;
-    }
+    hci_effort effort = {0};
     const equations e = equations_of(r, rows);
     const double det = e.aa * e.ss - e.as * e.as;
     if (!(square > 0.0) || !(e.ss > 0.0)) return effort;
     const bool has_slope = det > 1e-9 * e.aa * e.ss;
     const double a = has_slope ? (e.ss * e.ay - e.as * e.sy) / det : 0.0;
-    const double c = (e.sy - e.as * a) / e.ss, variance = variance_of(r, rows, a, c);
+    const double c = (e.sy - e.as * a) / e.ss, variance = variance_of(r, rows, unknowns, a, c);
     if (has_slope && fabs(a) > 0.0) effort.accelerating = in_errors(a, variance * e.ss / det);
     if (fabs(c) > 0.0) effort.braking = in_errors(c, variance * (has_slope ? e.aa / det : 1.0 / e.ss));
     effort.share = fmax(-1.0, fmin(1.0, c / sqrt(square)));
+    return effort;
+}
+
+static double square_of(const row *r, size_t rows)
+{
+    double square = 0.0;
+    for (size_t j = 0; j < rows; ++j)
+        square += r[j].iq * r[j].iq / (double)rows;
+    return square;
+}
+
+/* Acceleration, friction, and a weight where the shaft turns both ways. */
+static hci_effort fit_motion(row *r, size_t rows)
+{
+    const bool has_both_ways = turns_both_ways(r, rows);
+    const double square = square_of(r, rows);
+    const row mean = mean_of(r, rows);
+    for (size_t j = 0; j < rows && has_both_ways; ++j)
+        r[j].acceleration -= mean.acceleration, r[j].sign -= mean.sign, r[j].iq -= mean.iq;
+    hci_effort effort = fit(r, rows, 3, square);
+    effort.has_both_ways = has_both_ways;
+    return effort;
+}
+
+/* Takes one column of the rows, whose squares sum to `square`, out of another. */
+static void take_out(row *r, size_t rows, int column, double square)
+{
+    double acceleration = 0.0, sign = 0.0, iq = 0.0;
+    for (size_t j = 0; j < rows; ++j) {
+        acceleration += r[j].wave[column] * r[j].acceleration / square;
+        sign += r[j].wave[column] * r[j].sign / square;
+        iq += r[j].wave[column] * r[j].iq / square;
+    }
+    for (size_t j = 0; j < rows; ++j) {
+        r[j].acceleration -= acceleration * r[j].wave[column];
+        r[j].sign -= sign * r[j].wave[column];
+        r[j].iq -= iq * r[j].wave[column];
+    }
+}
+
+/* One wave at right angles to those before it, which are; out: the sum of its squares. */
+static double make_square(row *r, size_t rows, int column)
+{
+    double mean = 0.0, square = 0.0;
+    for (size_t j = 0; j < rows; ++j)
+        mean += r[j].wave[column] / (double)rows;
+    for (size_t j = 0; j < rows; ++j)
+        r[j].wave[column] -= mean;
+    for (int before = 0; before < column; ++before) {
+        double along = 0.0, of = 0.0;
+        for (size_t j = 0; j < rows; ++j)
+            along += r[j].wave[before] * r[j].wave[column], of += r[j].wave[before] * r[j].wave[before];
+        for (size_t j = 0; j < rows && of > 0.0; ++j)
+            r[j].wave[column] -= along / of * r[j].wave[before];
+    }
+    for (size_t j = 0; j < rows; ++j)
+        square += r[j].wave[column] * r[j].wave[column];
+    return square;
+}
+
+#define LEAST_WAVE 1e-3 /* mean square of a wave that the way does not make of the others */
+
+/* The friction beside what comes once or twice a turn; rows about their means. What accelerates a shaft then
+ * may be the load, against the current. */
+static hci_effort fit_beside_load(row *r, size_t rows)
+{
+    for (int n = 0; n < WAVES; ++n) {
+        const double square = make_square(r, rows, n);
+        if (square < LEAST_WAVE * (double)rows) return (hci_effort){0};
+        take_out(r, rows, n, square);
+    }
+    hci_effort effort = fit(r, rows, 3 + WAVES, square_of(r, rows));
+    effort.accelerating = 0.0;
+    effort.has_both_ways = true;
     return effort;
 }
 
@@ -211,9 +295,11 @@ hci_effort hci_effort_find(const hci_effort_samples *samples)
     bool follows = false;
     if (samples->count < LEAST_SAMPLES * LEAST_WINDOWS) return (hci_effort){0};
     const size_t count = cut_to_motion(samples, w, &follows), rows = rows_of(w, count, r);
-    hci_effort effort = rows < LEAST_WINDOWS - 2 ? (hci_effort){0} : fit(r, rows);
+    hci_effort effort = rows < LEAST_WINDOWS - 2 ? (hci_effort){0} : fit_motion(r, rows);
     if (!follows) effort.accelerating = 0.0;
-    return effort;
+    if (hci_effort_way(&effort) != 0 || !effort.has_both_ways || !samples->theta_m_rad) return effort;
+    const hci_effort beside = fit_beside_load(r, rows);
+    return hci_effort_way(&beside) != 0 ? beside : effort;
 }
 
 bool hci_effort_accelerates(const hci_effort *effort)
@@ -244,8 +330,9 @@ static int way_of(const hci_run *run, double *work)
         iq_A[k] = hci_run_dq(run, run->pole_pairs, k).q;
         number[k] = (double)k;
     }
-    const hci_effort effort = hci_effort_find(
-        &(hci_effort_samples){run->time_s ? run->time_s : number, run->speed_rad_per_s, iq_A, run->count});
+    const hci_effort effort =
+        hci_effort_find(&(hci_effort_samples){run->time_s ? run->time_s : number, run->speed_rad_per_s, iq_A,
+                                              run->turn_known ? run->theta_m_rad : NULL, run->count});
     return hci_effort_way(&effort);
 }
 

@@ -12,14 +12,16 @@
 /* Of one recording, [count] each, in any unit. */
 typedef struct {
     const double *time, *speed, *iq;
+    const double *theta_m_rad; /* NULL: where in its mechanical turn the shaft is, is not known */
     size_t count;
 } hci_effort_samples;
 
-/* i_q = a·acceleration + c·sign(speed) + a weight, which is told where the shaft turns both ways. */
+/* i_q = a·acceleration + c·sign(speed) + a weight, which is told where the shaft turns both ways; where that
+ * tells no sign, also + orders 1 and 2 of the mechanical turn, which an arm or a crank makes. */
 typedef struct {
     double accelerating; /* a over its standard error; 0: not told */
     double braking;      /* c over its standard error; 0: not told */
-    double share;        /* c over the rms of i_q, from -1 to 1 */
+    double share;        /* c over the rms of i_q, without these orders, from -1 to 1 */
     bool has_both_ways;  /* forward and back: c has no weight in it */
 } hci_effort;
 

@@ -412,6 +412,25 @@ static void test_a_table_is_in_the_bound(void)
     TEST_ASSERT_NULL_MESSAGE(strstr(words, "the table"), words);
 }
 
+/* No bound beside a load that turns with the shaft, whoever asks: it is in the file, and is written again. */
+static void test_turning_load(void)
+{
+    static const char TURNING[] = "name,value,unit\nverdict,explained,\nsearch,complete,\n"
+                                  "unexplained_ripple,0,Nm\nturning_load,0.4,Nm\n";
+    char words[1024];
+    const hci_ripple_path path = path_of(0.0, 1.0);
+    files_write(files_path("diagnosis.csv"), TURNING);
+    allow_cogging(0.01);
+    const hci_expected_ripple e = expect(&path);
+    TEST_ASSERT_EQUAL_INT(HCI_RIPPLE_SWAYED, e.state);
+    TEST_ASSERT_TRUE(isnan(e.peak_to_peak_Nm) && isnan(e.mean_error_Nm));
+    hci_expected_ripple_words(&e, words, sizeof words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "a load once or twice a turn"), words);
+    files_remove(files_path("diagnosis.csv"));
+    write_all();
+    check_file("diagnosis.csv", TURNING);
+}
+
 /* No exponent, and no zero: a limit is rounded up, so that what is said is no less than what was found. */
 /* A rectangular wave has a fifth of its fundamental at order 5: twice that is where belief ends. */
 static void test_what_holds_for_the_model_alone(void)
@@ -537,6 +556,7 @@ int main(void)
     RUN_TEST(test_no_files_are_no_knowledge);
     RUN_TEST(test_files_that_are_wrong);
     RUN_TEST(test_origin_is_written_again);
+    RUN_TEST(test_turning_load);
     RUN_TEST(test_origin_that_is_wrong);
     RUN_TEST(test_belongs_to_one_list_of_effects);
     RUN_TEST(test_one_uncertain_order);

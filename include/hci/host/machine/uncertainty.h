@@ -31,6 +31,8 @@ typedef struct {
     double unexplained_Nm; /* rms of the ripple in its recordings that the model does not have and that is
                             * not noise; NAN: not known */
     bool constant_is_declared; /* no recording told the torque per ampere: it is the declared one */
+    double turning_load_Nm; /* torque once or twice a turn, which a load on the shaft makes as well as the
+                             * motor, and no recording tells which; 0: none */
 } hci_machine_origin;
 
 /* Whether it has not explained its recordings: partly explained, unknown, or a search that ended early. */

@@ -61,10 +61,11 @@ static bool has_computed_torque(const check_samples *s)
 
 /* What the current does to the motion. A friction of one direction alone may be another machine that drives.
  */
-static int current_way(const check_samples *s)
+static int current_way(const check_samples *s, const check_run *file)
 {
     if (s->torque || !s->time || !s->speed || !s->q) return 0;
-    const hci_effort effort = hci_effort_find(&(hci_effort_samples){s->time, s->speed, s->q, s->count});
+    const hci_effort effort = hci_effort_find(
+        &(hci_effort_samples){s->time, s->speed, s->q, file->is_electrical ? NULL : s->theta, s->count});
     const bool is_told = effort.has_both_ways || hci_effort_accelerates(&effort);
     return is_told ? hci_effort_way(&effort) : 0;
 }
@@ -79,7 +80,7 @@ static hci_status run_take(const hci_csv *csv, check_data *data, check_run *file
                      "the torque is i_q times a number: the drive has computed it, and it is not compared");
         s.torque = NULL;
     }
-    if (!status) file->current_way = current_way(&s);
+    if (!status) file->current_way = current_way(&s, file);
     if (!status && !parts_take(&s, file, data)) status = hci_note_memory(note, file->path, "its samples");
     hci_check_samples_release(&s);
     return status;
