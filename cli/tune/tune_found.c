@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "cli/tune/tune_facts.h"
-#include "hci/host/diagnose/turning_load.h"
+#include "hci/host/waveform/turning_load.h"
 
 /* ---- effects ---- */
 

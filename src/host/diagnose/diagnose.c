@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "hci/host/diagnose/turning_load.h"
+#include "hci/host/waveform/turning_load.h"
 #include "host/base/memory.h"
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/findings.h"

@@ -1,4 +1,4 @@
-#include "hci/host/diagnose/turning_load.h"
+#include "hci/host/waveform/turning_load.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Orders of a torque that a load which turns with the shaft makes as well as the motor. */
-#ifndef HCI_HOST_DIAGNOSE_TURNING_LOAD_H
-#define HCI_HOST_DIAGNOSE_TURNING_LOAD_H
+#ifndef HCI_HOST_WAVEFORM_TURNING_LOAD_H
+#define HCI_HOST_WAVEFORM_TURNING_LOAD_H
 
 #include "hci/effects/effect.h"
 #include "hci/host/recording/run.h"

@@ -1,5 +1,5 @@
 /* A torque once or twice a turn, which an arm or a crank on the shaft makes as well as the motor. */
-#include "hci/host/diagnose/turning_load.h"
+#include "hci/host/waveform/turning_load.h"
 
 #include <unity.h>
 
