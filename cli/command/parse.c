@@ -78,6 +78,20 @@ static bool is_option(const reader *r, const char *word)
     return word[0] == '-' && word[1] != '\0' && option_of(r, word, strchr(word, '=')) >= 0;
 }
 
+static bool is_path(const cli_option *option)
+{
+    return option->kind == CLI_FILE || option->kind == CLI_FOLDER;
+}
+
+/* A path that begins as an option does would be one to the next command that it is given to. */
+static hci_status check_path(const reader *r, const cli_option *option, const char *value, hci_note *note)
+{
+    if (!is_path(option) || value[0] != '-' || value[1] == '\0') return HCI_OK;
+    return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                        "%s: `--%s`: found `%s`, expected %s; a path that begins with `-` is written ./%s",
+                        r->command->name, option->name, value, option->value_name, value);
+}
+
 /* The value of an option, in the same word after `=` or in the next one. */
 static hci_status take_value(reader *r, const cli_option *option, const char **value, hci_note *note)
 {
@@ -88,19 +102,24 @@ static hci_status take_value(reader *r, const cli_option *option, const char **v
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "%s: `%s` takes no value", r->command->name, word);
     if (equals) {
         *value = equals + 1;
-        return HCI_OK;
+        return check_path(r, option, *value, note);
     }
     if (!cli_option_takes_value(option) || (may_go_without && !is_count(next))) return HCI_OK;
     if (!next)
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "%s: `%s` needs a value: %s", r->command->name, word,
                             option->value_name);
+    if (is_option(r, next) && is_path(option))
+        return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                            "%s: `%s` needs a value: %s; found the option `%s`; a path of that name is "
+                            "written ./%s",
+                            r->command->name, word, option->value_name, next, next);
     if (is_option(r, next))
         return hci_note_set(
             note, HCI_ERROR_ARGUMENT,
             "%s: `%s` needs a value: %s; found the option `%s`; for a value of that name write --%s=%s",
             r->command->name, word, option->value_name, next, option->name, next);
     *value = r->words[++r->at];
-    return HCI_OK;
+    return check_path(r, option, *value, note);
 }
 
 static hci_status take_option(reader *r, cli_arguments *a, hci_note *note)

@@ -96,7 +96,7 @@ wrong 'unknown option `-x`' solve data/machine_a -x
 wrong 'unknown option `-qx`' solve data/machine_a --target $target -qx
 wrong '`--target` needs a value: FILE' solve data/machine_a --target
 wrong '`-o` needs a value: FOLDER' solve data/machine_a --target $target -o
-wrong '`-o` needs a value: FOLDER; found the option `--report`; .* --out=--report' solve data/machine_a --target $target -o --report
+wrong '`-o` needs a value: FOLDER; found the option `--report`; a path of that name is written ./--report' solve data/machine_a --target $target -o --report
 check "a folder of the name of an option" [ ! -e ./--report ]
 wrong 'found more than 1024 words' check data/machine_a $(seq 1100)
 wrong 'is given more than 72 times' check data/machine_a $(seq -f '--column=x=y%g' 80)

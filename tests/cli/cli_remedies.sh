@@ -96,6 +96,21 @@ wrong 3 theta_m=2 'expected a column by its name; column 2 is `angle`'
 run 2 predict kept/machine turns.csv --column theta_m_turn=angle --column iq=angle; says 'found `angle`, which is `theta_m_turn` already'
 run 3 predict kept/machine turns.csv --column theta_m_turn=angle --column theta_m_turn=vel; says 'found `vel` beside `angle` in turns.csv'
 run 0 predict kept/machine turns.csv --column 'theta_m_turn = angle' --column 'iq_A= current'
+log 'time [s],theta_m [turn],speed [rpm],iq [mA]' 1 60 1000 >headers.csv
+run 2 predict kept/machine headers.csv --column 'foo=iq [mA]'; says 'the column `iq .mA.` is read by iq=iq .mA., and the column `foo` by iq=foo'
+run 0 predict kept/machine headers.csv --column 'iq=iq [mA]' # as it is said, in the unit of the header
+run 2 predict kept/machine headers.csv --column '-iq=iq [mA]'; says 'the opposite sign stands before the column: iq=-iq .mA.'
+run 0 predict kept/machine headers.csv --column 'iq=-iq [mA]'
+for other in iq_A=iq iq=-iq iq=iq/10; do # the last one would have won
+    run 2 predict kept/machine turns.csv --column theta_m_turn=angle --column iq_mA=current --column "${other%%=*}=$(echo "${other#*=}" | sed s/iq/current/)"
+    says 'found it beside `iq_mA=current`, expected one of the two; leave the other out'
+done
+run 2 predict kept/machine turns.csv --column theta_m_turn=angle --column angle_offset=3 --angle-offset 4; says 'beside `angle_offset=3`, expected one of the two'
+run 0 predict kept/machine turns.csv --column theta_m_turn=angle --column iq=current --column iq=current # the same once more
+printf 'theta_m_turn,angle\n' >columns.csv # without its header, which the row is not
+run 3 predict kept/machine turns.csv; says 'columns.csv:1: found `theta_m_turn`, expected the header name,column; write it above the rows'
+sed -i '1i name,column' columns.csv; echo iq,current >>columns.csv; run 0 predict kept/machine turns.csv
+rm columns.csv
 log time_ms,theta_m_turn,speed_rpm,iq_A 1 60 1 >seconds.csv
 tuned 1 seconds.csv; tells "1000 is s in a column that is read in ms; say --column 'time_s=time_ms'"; typed seconds.csv
 log time_s,theta_m_turn,speed_rpm,iq_A 1 420 1 >electrical.csv
@@ -125,6 +140,9 @@ run 2 tune rad.csv --pole-pairs 7 --kv 90 -o o; says 'such as notes.txt'
 
 # ---- words
 
+run 2 tune rad.csv --pole-pairs 7 --kv 90 -o -p; says 'found `-p`, expected FOLDER; a path that begins with `-` is written ./-p'
+run 2 tune rad.csv --pole-pairs 7 --kv 90 --out=-p26; says 'written ./-p26'
+check 'half a run is left' eval '! ls | grep -q "^-p"'
 run 2 tune - --pole-pairs 7 --kv 90 -o p; says 'found `-`, expected a file'
 run 2 tune rad.csv --pole-pairs 7 --kv 90 -o p --angle-offset abc; says '^hci-solve: --angle-offset abc: found `abc`'
 run 2 solve m --limit-peak 5; says 'those that begin so are `--limit-current`, .*`--limit-voltage`'

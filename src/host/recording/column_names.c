@@ -171,11 +171,25 @@ static bool check_offset(const hci_column_name *item, hci_status bad, hci_status
     return true;
 }
 
-/* Also of the two exchanged: "Winkel=theta_m". */
+/* "iq [A]", which is a header and no name of a quantity: the quantity as it is written before the sign. */
+static void suggest_before_header(const hci_column_name *item, char *text, size_t size)
+{
+    const char *name = hci_run_column_name(quantity_of(item->column));
+    const int base = (int)hci_wanted_column_of(name).base_length;
+    snprintf(text, size, "the column `%.200s` is read by %.*s=%.200s, and the column `%.200s` by %.*s=%.200s",
+             item->column, base, name, item->column, item->name, base, name, item->name);
+}
+
+/* Also of the two exchanged: "Winkel=theta_m"; or with the sign before the name: "-iq=current". */
 static hci_status unknown_name(const hci_column_name *item, hci_status status, hci_note *note)
 {
-    char quoted[HCI_QUOTE_SIZE], remedy[480];
-    if (is_quantity(item->column))
+    char quoted[HCI_QUOTE_SIZE], remedy[900];
+    if (item->name[0] == '-' && is_quantity(item->name + 1))
+        snprintf(remedy, sizeof remedy, "the opposite sign stands before the column: %.200s=-%.200s",
+                 item->name + 1, item->column);
+    else if (is_quantity(item->column) && strchr(item->column, ' '))
+        suggest_before_header(item, remedy, sizeof remedy);
+    else if (is_quantity(item->column))
         snprintf(remedy, sizeof remedy, "the column stands behind the sign: %s=%.200s", item->column,
                  item->name);
     else
@@ -206,16 +220,51 @@ static hci_status append(hci_column_names *names, hci_column_name item, hci_note
     return hci_note_memory(note, NULL, "names of columns");
 }
 
-/* One column cannot be two quantities. */
+/* Of "-COLUMN/NUMBER" the column, with where it ends. */
+static const char *plain_column(const char *text, size_t *length)
+{
+    double number;
+    text += text[0] == '-' && text[1] != '\0';
+    const char *slash = strrchr(text, '/');
+    *length = slash != NULL && slash > text && hci_number_parse(slash + 1, &number) ? (size_t)(slash - text)
+                                                                                    : strlen(text);
+    return text;
+}
+
+static bool is_same_column(const hci_column_name *a, const hci_column_name *b)
+{
+    size_t of_a, of_b;
+    const char *x = plain_column(a->column, &of_a), *y = plain_column(b->column, &of_b);
+    return of_a == of_b && memcmp(x, y, of_a) == 0;
+}
+
+/* The same words twice do no harm, and a column in two units, signs or counts would be read by the last. */
+static bool is_said_otherwise(const hci_column_name *a, const hci_column_name *b)
+{
+    const hci_unit *unit;
+    const bool is_again = strcmp(a->name, b->name) == 0 && strcmp(a->column, b->column) == 0;
+    if (is_offset(a->name, &unit) && is_offset(b->name, &unit)) return !is_again;
+    return is_quantity(a->name) && quantity_of(a->name) == quantity_of(b->name) && is_same_column(a, b) &&
+           !is_again;
+}
+
+/* One column cannot be two quantities, nor one quantity twice. */
 static hci_status check_one_meaning(const hci_column_names *names, const hci_column_name *item,
                                     hci_status bad, hci_note *note)
 {
     char quoted[HCI_QUOTE_SIZE];
-    for (size_t k = 0; k < names->count; ++k)
-        if (strcmp(names->item[k].column, item->column) == 0 && is_quantity(item->name) &&
-            quantity_of(names->item[k].name) != quantity_of(item->name))
+    for (size_t k = 0; k < names->count; ++k) {
+        const hci_column_name *before = &names->item[k];
+        if (is_said_otherwise(before, item))
+            return hci_note_set(note, bad,
+                                "%.300s: found it beside `%.80s=%.200s`, expected one of the two; leave the "
+                                "other out",
+                                item->from, before->name, before->column);
+        if (strcmp(before->column, item->column) == 0 && is_quantity(item->name) &&
+            quantity_of(before->name) != quantity_of(item->name))
             return hci_note_set(note, bad, "%.300s: found %s, which is `%s` already, expected another column",
-                                item->from, hci_quote(item->column, quoted), names->item[k].name);
+                                item->from, hci_quote(item->column, quoted), before->name);
+    }
     return HCI_OK;
 }
 
@@ -314,11 +363,23 @@ static hci_status read_row(hci_column_names *names, const hci_csv *csv, size_t r
     return add(names, item, HCI_ERROR_INPUT, note);
 }
 
+/* Without it the first row would be taken for it, and be passed over. */
+static hci_status check_header(const hci_csv *csv, hci_note *note)
+{
+    char path[HCI_QUOTE_PATH_SIZE], one[HCI_QUOTE_SIZE];
+    if (hci_csv_has(csv, "name") && hci_csv_has(csv, "column")) return HCI_OK;
+    return hci_note_set(note, HCI_ERROR_INPUT,
+                        "%s:1: found %s, expected the header name,column; write it above the rows",
+                        hci_quote_path(hci_csv_path(csv), path),
+                        hci_csv_columns(csv) > 0 ? hci_quote(hci_csv_name(csv, 0), one) : "no column");
+}
+
 hci_status hci_column_names_read(hci_column_names *names, const char *path, hci_note *note)
 {
     hci_csv *csv;
     hci_status status = hci_csv_read(path, &csv, note);
     if (status) return status;
+    status = check_header(csv, note);
     for (size_t row = 0; row < hci_csv_rows(csv) && !status; ++row)
         status = read_row(names, csv, row, note);
     hci_csv_free(csv);
