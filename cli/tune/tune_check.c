@@ -5,8 +5,10 @@
 #include <string.h>
 
 #include "cli/tune/tune_commands.h"
+#include "cli/tune/tune_facts.h"
 #include "cli/tune/tune_options.h"
 #include "cli/tune/tune_read.h"
+#include "cli/tune/tune_size.h"
 #include "cli/tune/tune_steps.h"
 #include "cli/tune/tune_suspect.h"
 #include "hci/host/report/write.h"
@@ -51,12 +53,42 @@ static double probability_of(const cli_tuning *t, const hci_check *c, const hci_
     return f->probability / fmax(1.0 - excluded, f->probability);
 }
 
+/* The torque over what the currents make; 1: not known. */
+static double torque_ratio(const hci_check *c)
+{
+    for (size_t k = 0; k < c->evidences; ++k)
+        if (strcmp(c->evidence[k].name, "torque_size") == 0)
+            return fabs(c->evidence[k].declared / c->evidence[k].expected);
+    return 1.0;
+}
+
+/* Sheets are off by as much: within this factor of ten a figure whose point is at another place makes it. */
+#define OFF_SHEET 1.25
+
+static bool is_ten_times(double ratio)
+{
+    return fabs(fabs(log(ratio)) - log(10.0)) < log(OFF_SHEET);
+}
+
+/* "; or else --kv is 10 times too large", where the unit of a torque looks the same; of the figures of a
+ * sheet Kv alone is over the torque. */
+static void append_point(cli_tuning *t, const hci_check *c, const hci_check_finding *f)
+{
+    const double ratio = torque_ratio(c);
+    if (strncmp(f->slip, "torque_", 7) != 0 || strcmp(f->slip, "torque_sign") == 0 || !is_ten_times(ratio))
+        return;
+    const bool is_over = t->is_own && t->arguments->given[TUNE_KV];
+    append(t, "; or else %s is 10 times too %s, which the torques do not tell from it: voltages would",
+           cli_tune_constant_option(t), (ratio > 1.0) == is_over ? "large" : "small");
+}
+
 /* "Most likely the torque is in N·cm (98 %), or else ..., so nothing was solved" */
-static void take_slip(cli_tuning *t, const hci_check_finding *f, double probability)
+static void take_slip(cli_tuning *t, const hci_check *c, const hci_check_finding *f, double probability)
 {
     t->has_slip = true;
     t->slip_is_of_poles = is_of_poles(f->slip);
     append(t, "Most likely %s (%.3g %%", f->words, 100.0 * probability);
+    append_point(t, c, f);
     for (size_t k = 0; k < f->alternatives; ++k)
         if (!is_excluded(t, f->alternative[k])) append(t, "; or else %s", f->alternative_words[k]);
     append(t, "), so nothing was solved");
@@ -70,7 +102,7 @@ static void say_finding(cli_tuning *t, const hci_check *c, const hci_check_findi
                    "%s: %s (%.3g %%); %s:%zu, %s: found %s, should be %s",
                    is_found ? "slip" : "possible slip", f->words, 100.0 * probability, f->file, f->line,
                    f->column, f->found, f->should_be);
-    if (is_found && !t->has_slip) take_slip(t, f, probability);
+    if (is_found && !t->has_slip) take_slip(t, c, f, probability);
 }
 
 static void say_evidence(cli_tuning *t, const hci_check_evidence *e)
@@ -157,27 +189,26 @@ static void judge_ambiguous(cli_tuning *t, const hci_check *c)
     append(t, ", so nothing was solved");
 }
 
-/* Of measured and calculated torque, or its inverse: beyond it no magnet and no sensor is meant. */
-#define ANOTHER_TORQUE 2.5
-
 /* Which unit of the constant makes such a ratio; "": none that is known. */
 static const char *unit_of_torque(double ratio)
 {
-    if (fabs(ratio * 30.0 / HCI_PI - 1.0) < 2.0 * OF_A_UNIT) return " (as Kv in rad/s per V would)";
+    if (fabs(ratio * 30.0 / HCI_PI - 1.0) < 2.0 * OF_A_UNIT)
+        return " (as Kv in rad/s per V would, or a figure of the sheet whose point is at another place)";
+    if (is_ten_times(ratio)) return " (as a figure of the sheet whose point is at another place would)";
     return fabs(ratio * 1000.0 - 1.0) < 2.0 * OF_A_UNIT ? " (as a constant in mN·m/A would)" : "";
 }
 
 static void judge_torque(cli_tuning *t, const hci_check *c, const hci_check_evidence *e)
 {
     if (t->has_slip || e->state == HCI_CHECK_AGREES || strcmp(e->name, "torque_size") != 0) return;
-    if (fabs(log(fabs(e->declared / e->expected))) < log(ANOTHER_TORQUE)) return;
+    if (fabs(log(fabs(e->declared / e->expected))) < log(CLI_TUNE_ANOTHER_TORQUE)) return;
     t->has_slip = true;
     snprintf(t->slip, sizeof t->slip,
              "The torque is %.3g times what the currents make with the constant of the sheet%s (of the other "
              "side of a gear, in another unit, or of another motor, or %s is another number or of another "
              "unit",
              e->declared / e->expected, unit_of_torque(e->declared / e->expected),
-             t->is_own ? "--kv" : "the back-EMF of the machine");
+             cli_tune_constant_option(t));
     for (size_t k = 0; k < c->findings; ++k)
         if (!is_excluded(t, c->finding[k].slip))
             append(t, ", or %s, by %.2g %%", c->finding[k].words,
@@ -233,6 +264,8 @@ static void judge_zero(cli_tuning *t, const hci_check *c)
 static void judge_check(cli_tuning *t, const hci_check *c)
 {
     judge_zero(t, c);
+    if (cli_tune_say_mixed_torque(t, t->slip, sizeof t->slip))
+        t->has_slip = true;
     t->counts_pole_pairs = counts_pole_pairs(t, c);
     for (size_t k = 0; k < c->evidences && c->verdict != HCI_CHECK_CONSISTENT; ++k)
         judge_torque(t, c, &c->evidence[k]);

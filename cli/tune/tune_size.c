@@ -4,6 +4,8 @@
 #include <stdio.h>
 
 #include "cli/tune/tune_current.h"
+#include "cli/tune/tune_facts.h"
+#include "cli/tune/tune_read.h"
 #include "cli/tune/tune_waveforms.h"
 
 /* Cogging torque, peak to peak, to the rated torque: motors have some percent. */
@@ -98,4 +100,82 @@ bool cli_tune_is_unpromised(const cli_tuning *t)
     if (!t->is_solved || e->state != HCI_RIPPLE_KNOWN || !hci_tuning_knows_ripple(&t->solution)) return false;
     hci_tuning_swing(&t->solution, &before_Nm, &after_Nm);
     return before_Nm >= t->solution.tolerance_Nm && e->peak_to_peak_Nm > BOUNDLESS * before_Nm;
+}
+
+/* ---- recordings whose torques are in different units ---- */
+
+/* Of the mean torque to what the phase currents could make: from there to CLI_TUNE_ANOTHER_TORQUE it is one
+ * of N·m. */
+#define LIKELY 0.1
+
+/* Times what another recording shows of mean torque or ripple: less is friction, a zero of the sensor, or a
+ * ripple that its noise or its filter hides. No less than any current makes, either. */
+#define ANOTHER_UNIT 30.0
+
+/* A ratio is that of a unit within this factor: friction and ripple are in it. */
+#define NEAR_UNIT 1.5
+
+typedef struct {
+    double mean_Nm, ripple_Nm; /* of the torque; rms about the mean */
+    double share;              /* mean to that of the currents; 0: there is none */
+} torque_size;
+
+static torque_size torque_size_of(const cli_tuning *t, const hci_run *r)
+{
+    torque_size x = {0.0, 0.0, 0.0};
+    for (size_t n = 0; n < r->count; ++n)
+        x.mean_Nm += r->torque_Nm[n] / (double)r->count;
+    for (size_t n = 0; n < r->count; ++n)
+        x.ripple_Nm += (r->torque_Nm[n] - x.mean_Nm) * (r->torque_Nm[n] - x.mean_Nm) / (double)r->count;
+    x.ripple_Nm = sqrt(x.ripple_Nm);
+    if (!cli_tune_has_no_current(t, r))
+        x.share = fabs(x.mean_Nm) / (sqrt(2.0) * cli_tune_rms_A(r) * t->reading.run.torque_constant_Nm_per_A);
+    return x;
+}
+
+/* How many times another recording shows what one of a torque in N·m does; 0: nothing to be said. */
+static double times_of(const torque_size *other, const torque_size *good)
+{
+    const double times = other->share > 0.0 ? other->share / good->share : other->ripple_Nm / good->ripple_Nm;
+    return times > ANOTHER_UNIT ? times : 0.0;
+}
+
+static const char *column_of_unit(double times)
+{
+    if (fabs(log(times / 1000.0)) < log(NEAR_UNIT)) return "torque_mNm";
+    return fabs(log(times / 100.0)) < log(NEAR_UNIT) ? "torque_Ncm" : "";
+}
+
+/* The recording under load with a torque of N·m; t->runs.count: none. */
+static size_t good_torque(const cli_tuning *t, torque_size *size)
+{
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        if (t->runs.run[k].torque_source != HCI_TORQUE_MEASURED) continue;
+        *size = torque_size_of(t, &t->runs.run[k]);
+        if (size->share > LIKELY && size->share < CLI_TUNE_ANOTHER_TORQUE) return k;
+    }
+    return t->runs.count;
+}
+
+bool cli_tune_say_mixed_torque(const cli_tuning *t, char *text, size_t size)
+{
+    torque_size good = {0.0, 0.0, 0.0};
+    const size_t by = good_torque(t, &good);
+    const double most_Nm =
+        CLI_TUNE_ANOTHER_TORQUE * t->reading.run.torque_constant_Nm_per_A * cli_tune_largest_recorded_A(t);
+    for (size_t k = 0; by < t->runs.count && k < t->runs.count; ++k) {
+        if (k == by || t->runs.run[k].torque_source != HCI_TORQUE_MEASURED) continue;
+        const torque_size other = torque_size_of(t, &t->runs.run[k]);
+        const double times = times_of(&other, &good);
+        if (!(times > 0.0) || fabs(other.mean_Nm) + other.ripple_Nm < most_Nm) continue;
+        const char *column = column_of_unit(times);
+        snprintf(
+            text, size,
+            "The torque in %.120s %s %.0f times that in %.120s, which is in N·m by its currents: it is in "
+            "another unit there; name its column %s in that log, so nothing was solved",
+            cli_tune_name_of(t, k), other.share > 0.0 ? "is by its currents" : "swings without a current",
+            times, cli_tune_name_of(t, by), column[0] ? column : "with its unit, as torque_lbfin is");
+        return true;
+    }
+    return false;
 }

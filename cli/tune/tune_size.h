@@ -16,4 +16,11 @@ double cli_tune_rated_Nm(const cli_tuning *tune);
 /* Whether the bound on the machine is so far above what a plain sine makes that it says nothing. */
 bool cli_tune_is_unpromised(const cli_tuning *tune);
 
+/* Of measured and calculated torque, or its inverse: beyond it no magnet and no sensor is meant. */
+#define CLI_TUNE_ANOTHER_TORQUE 2.5
+
+/* Which recording has its torque in another unit than the others, of which one shows what its currents make;
+ * false: none has. text: of size bytes. */
+bool cli_tune_say_mixed_torque(const cli_tuning *tune, char *text, size_t size);
+
 #endif

@@ -208,6 +208,8 @@ const check_error HCI_CHECK_ERRORS[] = {
      "time, angle and phase currents or voltages beside the speed"},
     {"speed_rpm_for_rad_per_s", CHECK_OF_SPEED, USUALLY, FIELD(speed), RPM, 0.0, CHECK_AT_SPEED,
      "the speed is in rpm", "speed_rpm", "time and angle beside the speed"},
+    {"speed_turn_per_s_for_rad_per_s", CHECK_OF_SPEED, USUALLY, FIELD(speed), 2.0 * HCI_PI, 0.0,
+     CHECK_AT_SPEED, "the speed is in turn/s", "speed_turn_per_s", "time and angle beside the speed"},
     {"speed_unsigned", CHECK_OF_SPEED_SIGN, USUALLY, FIELD(speed_unsigned), 0.0, 1.0, CHECK_AT_SPEED_SIGN,
      "the speed has no sign: it is positive backward, too", "the speed with the sign of the angle's change",
      "the direction in which the shaft has turned"},

@@ -549,6 +549,7 @@ MISTAKE(generator, x->torque_Nm = -x->torque_Nm)
 MISTAKE(millinewton, x->torque_Nm *= 1000.0)
 MISTAKE(electrical_speed, x->speed *= 4.0)
 MISTAKE(rpm, x->speed *= 9.549296585513721)
+MISTAKE(turns_per_s, x->speed *= 0.5 / REF_PI)
 MISTAKE(milliseconds, x->time_s *= 1000.0)
 
 MISTAKE(off_by_31_degrees, x->theta += 31.0 / 4.0 * REF_PI / 180.0)
@@ -698,6 +699,7 @@ static void test_slips_of_recordings(void)
         {"time_microseconds", microseconds, ""},
         {"speed_electrical", electrical_speed, ""},
         {"speed_rpm_for_rad_per_s", rpm, ""},
+        {"speed_turn_per_s_for_rad_per_s", turns_per_s, ""},
         {"time_milliseconds", milliseconds, ""},
         {"current_sign", currents_out, ""},
         {"torque_sign", generator, ""},

@@ -196,6 +196,7 @@ static void test_speeds_of_the_recordings(void)
            {"angle_speed", "theta_electrical_for_mechanical", 0.25},
            {"angle_speed", "direction_reversed", -1.0}, {"angle_speed", "speed_electrical", 4.0},
            {"angle_speed", "speed_rpm_for_rad_per_s", 1.0 / RPM},
+           {"angle_speed", "speed_turn_per_s_for_rad_per_s", 0.5 / REF_PI},
            {"angle_speed", "time_milliseconds", 1000.0});
     data.run[0].angle_ratio = 4.0;
     EXPECT({"angle_ratio", "", 1.0}, {"angle_ratio", "poles_for_pole_pairs", 2.0});
