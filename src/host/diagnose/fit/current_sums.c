@@ -1,6 +1,7 @@
 #include "host/diagnose/fit/current_sums.h"
 
 #include <math.h>
+#include <string.h>
 
 #define ZEROS_DRIFT 0.05 /* of a sensor's zero, from one run to another */
 
@@ -12,8 +13,24 @@ double hci_current_sum_of(const hci_binned_sample *sample, const hci_sample *tru
     return left_A;
 }
 
+bool hci_current_sum_scales(const hci_effect_type *type)
+{
+    return type->sum_by_value && strcmp(type->parameter[0].unit, "1") == 0;
+}
+
+double hci_current_sum_scale(const hci_effects *effects)
+{
+    double scale = 1.0;
+    for (size_t k = 0; k < effects->count; ++k)
+        for (size_t j = 0; j < effects->effect[k].count && hci_current_sum_scales(effects->effect[k].type);
+             ++j)
+            scale += effects->effect[k].term[j].value / 3.0;
+    return scale;
+}
+
 double hci_current_sums_rms(const hci_regression *e, const hci_effects *effects)
 {
+    const double scale = hci_current_sum_scale(effects);
     double square = 0.0, count = 0.0;
     for (const hci_segment *s = NULL; (s = hci_regression_next(e, s)) != NULL;) {
         const double deviation_A = e->sum_deviation_A[s->run];
@@ -22,7 +39,7 @@ double hci_current_sums_rms(const hci_regression *e, const hci_effects *effects)
             const hci_binned_sample *sample = &e->samples->sample[k];
             const hci_sample truth =
                 hci_effects_undo_currents(effects, e->machine->pole_pairs, &sample->reading);
-            const double left = hci_current_sum_of(sample, &truth) / deviation_A;
+            const double left = scale * hci_current_sum_of(sample, &truth) / deviation_A;
             square += sample->count * left * left;
             count += sample->count;
         }

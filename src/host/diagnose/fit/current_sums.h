@@ -9,6 +9,14 @@
  * its reading. A. */
 double hci_current_sum_of(const hci_binned_sample *sample, const hci_sample *truth);
 
+/* Whether an effect reads currents by another factor each: then one that all phases have in common leaves a
+ * sum of 0 as it is, and makes of its noise another one. */
+bool hci_current_sum_scales(const hci_effect_type *type);
+
+/* How many times the currents sensors read, on the average of the phases, by which sums without what sensors
+ * add are as noisy as those of the readings; 1 without such an effect. */
+double hci_current_sum_scale(const hci_effects *effects);
+
 /* Root mean square over the runs in use whose sums say something, in units of the noise of a sample; 0: none
  * does. O(samples·terms). */
 double hci_current_sums_rms(const hci_regression *regression, const hci_effects *effects);

@@ -30,6 +30,7 @@ typedef struct {
     double reference_current_A;
     size_t *summed, summed_count; /* columns that show in sums of the currents, ascending */
     hci_normal_equations sums;    /* of these, from rows of such sums */
+    double sum_scale;             /* hci_current_sum_scale */
 } filling;
 
 /* ---- what a run can show ---- */
@@ -131,6 +132,16 @@ static void torque_rows(const filling *f, const hci_segment *s, const hci_predic
     if (hci_regression_mean_is_free(f->regression, s)) constants_free(f, s, noise);
 }
 
+/* What the sum of the readings leaves falls by, with a value: of gains g_s the sum is f Σ i_s,read/(1 + g_s)
+ * with f = 1 + Σ g_s/3, so that a factor that all phases have in common leaves it as it is. */
+static double sum_by_value(const filling *f, const hci_model_column *c, const hci_sample *truth, double sum_A)
+{
+    const hci_effect_type *type = c->candidate->type;
+    const hci_effect_term *term = &c->candidate->term[c->term];
+    const double by_value = f->sum_scale * type->sum_by_value(term, truth);
+    return hci_current_sum_scales(type) ? by_value / (1.0 + term->value) - sum_A / PHASES : by_value;
+}
+
 /* The row of one sample: what the sum of the readings leaves, in units of its noise. */
 static void sum_row(const filling *f, const hci_binned_sample *sample, double deviation_A, double *x,
                     double *y)
@@ -138,11 +149,10 @@ static void sum_row(const filling *f, const hci_binned_sample *sample, double de
     const hci_sample truth =
         hci_effects_undo_currents(&f->model->list, f->regression->machine->pole_pairs, &sample->reading);
     const double weight = sqrt(sample->count) / deviation_A;
-    *y = weight * hci_current_sum_of(sample, &truth);
-    for (size_t k = 0; k < f->summed_count; ++k) {
-        const hci_model_column *c = &f->model->column[f->summed[k]];
-        x[k] = weight * c->candidate->type->sum_by_value(&c->candidate->term[c->term], &truth);
-    }
+    const double sum_A = hci_current_sum_of(sample, &truth);
+    *y = weight * f->sum_scale * sum_A;
+    for (size_t k = 0; k < f->summed_count; ++k)
+        x[k] = weight * sum_by_value(f, &f->model->column[f->summed[k]], &truth, sum_A);
 }
 
 /* The sum of the true currents is 0 where no neutral is connected: rows that gains and offsets must explain.
@@ -323,6 +333,7 @@ static bool rows_add_all(filling *f)
     const hci_regression *e = f->regression;
     hci_predicted_reading predicted;
     const bool made = rows_reserve(f) && hci_predicted_reading_make(e, &f->plan.list, true, &predicted);
+    f->sum_scale = hci_current_sum_scale(&f->model->list);
     if (made) {
         predicted.apart = true;
         hci_column_plan_constants(&f->plan, e, &predicted);

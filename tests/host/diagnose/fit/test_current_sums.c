@@ -73,6 +73,59 @@ static void test_what_shows_in_the_sum_is_noticeable(void)
     TEST_ASSERT_TRUE(noticeable);
 }
 
+/* Two sensors that read 0.5 % too much and 0.2 % too little, beside noise. */
+static void record_gains(void)
+{
+    static const double GAIN[3] = {0.005, -0.002, 0.0};
+    for (size_t r = 0; r < 2; ++r) {
+        record(N, &(point){r ? -60.0 : 60.0, 9.0, 0.0, 0.0, 0.0});
+        run[r].has_sum = true;
+        for (size_t k = 0; k < 3 * N; ++k)
+            run[r].i_A[k] = (1.0 + GAIN[k % 3]) * run[r].i_A[k] + READ_A * ref_normal(&seed);
+    }
+    search_start();
+}
+
+/* A common factor of all currents makes less noise of their sum, which says nothing of the currents. */
+static void test_a_common_gain_leaves_as_much_of_the_sum(void)
+{
+    const hci_effect_type *type = hci_effect_type_find("current_gain");
+    hci_effect_term term[3];
+    const hci_effect gains = {type, term, 3};
+    const hci_effects known = {&gains, 1};
+    record_gains();
+    for (size_t s = 0; s < 3; ++s)
+        term[s] = (hci_effect_term){s, 0.0, (const double[]){0.005, -0.002, 0.0}[s], NAN};
+    const double left = hci_current_sums_rms(&dataset.regression, &known);
+    TEST_ASSERT_DOUBLE_WITHIN(0.05, 1.0, left);
+    for (size_t s = 0; s < 3; ++s)
+        term[s].value = 1.3 * (1.0 + term[s].value) - 1.0;
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, left, hci_current_sums_rms(&dataset.regression, &known));
+}
+
+/* Where a back-EMF of any size makes up for it, what is expected of sensors tells what they have in common.
+ */
+static void test_a_common_gain_is_as_expected(void)
+{
+    static const char *const PHASE[3] = {"a", "b", "c"};
+    double sum = 0.0;
+    record_gains();
+    model_add("back_emf", "sine", NULL, 1.0);
+    for (int s = 0; s < 3; ++s) {
+        hci_candidate x = candidate_of("current_gain", PHASE[s], NULL, 0.0);
+        x.deviation = 0.1;
+        TEST_ASSERT_EQUAL_INT(HCI_OK, hci_candidates_add(&model.candidates, &x, &note));
+    }
+    model_fit();
+    model_fit();
+    for (int s = 0; s < 3; ++s)
+        sum += term_in(&model.candidates, "current_gain", PHASE[s], 0.0)->value;
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.0, sum / 3.0);
+    TEST_ASSERT_DOUBLE_WITHIN(5e-4, 0.007,
+                              term_in(&model.candidates, "current_gain", "a", 0.0)->value -
+                                  term_in(&model.candidates, "current_gain", "b", 0.0)->value);
+}
+
 /* Four runs in which nothing flows and each sensor reads its zero, one of them drifted, beside a run at 9 A.
  */
 static void record_zeros(double drift, double torque_noise_Nm)
@@ -155,6 +208,8 @@ int main(void)
     RUN_TEST(test_an_offset_is_left_and_taken);
     RUN_TEST(test_nothing_where_there_is_no_sum);
     RUN_TEST(test_what_shows_in_the_sum_is_noticeable);
+    RUN_TEST(test_a_common_gain_leaves_as_much_of_the_sum);
+    RUN_TEST(test_a_common_gain_is_as_expected);
     RUN_TEST(test_zeros_are_left_and_taken);
     RUN_TEST(test_zeros_of_two_sensors);
     RUN_TEST(test_a_fit_finds_the_zeros);
