@@ -133,9 +133,14 @@ static hci_status defects_leave(hci_search *s, hci_fitted_model *model, hci_note
 
 hci_status hci_search_fit(hci_search *s, hci_fitted_model *model, hci_note *note)
 {
+    return hci_search_fit_below(s, model, INFINITY, note);
+}
+
+hci_status hci_search_fit_below(hci_search *s, hci_fitted_model *model, double bar, hci_note *note)
+{
     const hci_effect_type *culprit = NULL;
     double share = 1.0;
-    hci_status status = hci_regression_fit(s->regression, &model->candidates, &model->fit, note);
+    hci_status status = hci_regression_fit_below(s->regression, &model->candidates, bar, &model->fit, note);
     const size_t defect = large_defect(s->regression, &model->candidates);
     if (!status && defect < model->candidates.count) {
         status = disbelieve(s, model, model->candidates.candidate[defect].type, share, note);

@@ -12,6 +12,8 @@
 /* Fits a model. One that cannot be believed gets the score INFINITY, so that nothing is worse; the best of
  * those is kept in search->disbelieved. HCI_ERROR_MEMORY. */
 hci_status hci_search_fit(hci_search *search, hci_fitted_model *model, hci_note *note);
+/* The same as far as its score may come below a bar; where it will not, it stays above it. */
+hci_status hci_search_fit_below(hci_search *search, hci_fitted_model *model, double bar, hci_note *note);
 
 /* What a model leaves of the declared torque per ampere, as a share; 1 where none is declared.
  * HCI_ERROR_MEMORY. */
@@ -22,8 +24,8 @@ hci_status hci_search_constant_share(const hci_search *search, const hci_candida
  * which take the torque per ampere away; with the noise found anew. HCI_ERROR_MEMORY. */
 hci_status hci_search_keep_believed(hci_search *search, hci_fitted_model *model, hci_note *note);
 
-/* The same of what brakes and would drive, and of a mean torque of the iron that keeps its sign with the load,
- * whatever the search went through on its way: the best of such models is kept in search->disbelieved.
+/* The same of what brakes and would drive, and of a mean torque of the iron that keeps its sign with the
+ * load, whatever the search went through on its way: the best of such models is kept in search->disbelieved.
  * HCI_ERROR_MEMORY. */
 hci_status hci_search_keep_brakes(hci_search *search, hci_fitted_model *model, hci_note *note);
 

@@ -217,13 +217,13 @@ void hci_candidate_models_release(hci_candidate_models *t)
 }
 
 hci_status hci_candidate_model_fit(hci_search *s, const hci_candidate_models *t, const hci_candidate_model *x,
-                                   hci_fitted_model *fitted, hci_note *note)
+                                   double bar, hci_fitted_model *fitted, hci_note *note)
 {
     memset(fitted, 0, sizeof *fitted);
     hci_status status = hci_candidates_copy(&t->list, &fitted->candidates, note);
     for (size_t k = 0; k < fitted->candidates.count && !status; ++k)
         fitted->candidates.candidate[k].in = fitted->candidates.candidate[k].in || x->in[k];
-    if (!status) status = hci_search_fit(s, fitted, note);
+    if (!status) status = hci_search_fit_below(s, fitted, bar, note);
     if (status) hci_fitted_model_release(fitted);
     return status;
 }

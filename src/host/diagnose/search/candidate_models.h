@@ -32,9 +32,10 @@ void hci_candidate_models_release(hci_candidate_models *models);
 hci_status hci_candidate_models_same(hci_search *search, const hci_candidates *model,
                                      const hci_effect_type *same_as[HCI_MOST_TYPES], hci_note *note);
 
-/* The model with the candidates of a model, fitted. On failure *fitted is empty. HCI_ERROR_MEMORY. */
+/* The model with the candidates of a model, fitted as far as its score may come below a bar. On failure
+ * *fitted is empty. HCI_ERROR_MEMORY. */
 hci_status hci_candidate_model_fit(hci_search *search, const hci_candidate_models *models,
-                                   const hci_candidate_model *model, hci_fitted_model *fitted,
+                                   const hci_candidate_model *model, double bar, hci_fitted_model *fitted,
                                    hci_note *note);
 
 #endif

@@ -219,7 +219,7 @@ static hci_status model_enter(comparison *c, hci_candidate_models *t, const hci_
                               double handicap, hci_note *note)
 {
     hci_fitted_model candidate = {0};
-    hci_status status = hci_candidate_model_fit(c->search, t, x, &candidate, note);
+    hci_status status = hci_candidate_model_fit(c->search, t, x, c->bar - handicap, &candidate, note);
     const bool believed = isfinite(candidate.fit.score);
     const size_t a = x->a, b = x->b;
     if (!status && believed) status = contender_enter(c, &candidate, handicap, note);

@@ -5,6 +5,7 @@
 
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/search/candidate_models.h"
+#include "host/diagnose/search/seen.h"
 #include "host/diagnose/search/stability.h"
 
 #define EQUAL          6.0  /* models whose scores differ by less fit as well as each other */
@@ -19,6 +20,8 @@ typedef struct {
     hci_search *search;
     const hci_fitted_model *model;
     const hci_effect_type *type; /* in whose place */
+    bool unseen;                 /* only what these rounds have not been at */
+    double bar;                  /* that the score of a rival has to be below, to be looked at */
     hci_fitted_model without;
     hci_candidate_models models;
     size_t next;
@@ -31,6 +34,7 @@ static hci_status rivalry_start(hci_search *s, const hci_fitted_model *model, co
     r->search = s;
     r->model = model;
     r->type = type;
+    r->bar = INFINITY;
     hci_status status = hci_search_without(s, model, type, &r->without, note);
     if (!status) status = hci_candidate_models_make(s, &r->without.candidates, false, &r->models, note);
     return status;
@@ -47,7 +51,8 @@ static bool is_promising(const rivalry *r, const hci_candidate_model *x)
     const hci_effect_type *other = hci_candidate_type(x->a);
     const double gain = r->without.fit.score - r->model->fit.score;
     return other != r->type && !hci_candidates_have(&r->model->candidates, other) &&
-           !(x->gain < PROMISED_SHARE * gain - PROMISED_LESS);
+           !(x->gain < PROMISED_SHARE * gain - PROMISED_LESS) &&
+           !(r->unseen && hci_seen_has(r->search, &r->without.candidates, other));
 }
 
 /* The next promising rival, fitted. with: out, its type in hci_candidate_type's count, or its end. On failure
@@ -61,7 +66,7 @@ static hci_status rivalry_next(rivalry *r, hci_fitted_model *rival, size_t *with
     if (r->next == r->models.count) return HCI_OK;
     const hci_candidate_model *x = &r->models.model[r->next++];
     *with = x->a;
-    return hci_candidate_model_fit(r->search, &r->models, x, rival, note);
+    return hci_candidate_model_fit(r->search, &r->models, x, r->bar, rival, note);
 }
 
 /* ---- another effect instead ---- */
@@ -103,6 +108,8 @@ static hci_status swap_type(hci_search *s, hci_fitted_model *model, const hci_ef
     hci_fitted_model rival = {0};
     size_t with = 0;
     hci_status status = rivalry_start(s, model, type, &r, note);
+    r.unseen = true;
+    r.bar = model->fit.score + HCI_DECISIVE;
     while (!status && !*swapped && with < hci_candidate_types() && !hci_search_is_over(s)) {
         status = rivalry_next(&r, &rival, &with, note);
         if (status || with == hci_candidate_types()) break;
@@ -249,7 +256,7 @@ hci_status hci_search_instead(hci_search *s, const hci_fitted_model *model, cons
     while (!status && k < r.models.count && hci_candidate_type(r.models.model[k].a) != type)
         ++k;
     if (!status && k < r.models.count)
-        status = hci_candidate_model_fit(s, &r.models, &r.models.model[k], instead, note);
+        status = hci_candidate_model_fit(s, &r.models, &r.models.model[k], INFINITY, instead, note);
     if (!status && !isfinite(instead->fit.score)) hci_fitted_model_release(instead);
     rivalry_end(&r);
     return status;

@@ -8,6 +8,7 @@
 #include "host/diagnose/search/few_values.h"
 #include "host/diagnose/search/forward.h"
 #include "host/diagnose/search/rivals.h"
+#include "host/diagnose/search/seen.h"
 #include "host/diagnose/search/settle.h"
 #include "host/diagnose/search/stability.h"
 
@@ -22,8 +23,10 @@ static hci_status round_run(hci_search *s, hci_fitted_model *model, bool *again,
     if (hci_candidates_types_in(&model->candidates) < MOST_EFFECTS)
         status = hci_search_forward(s, model, again, note);
     if (!status && *again) status = hci_search_prune(s, model, note);
+    hci_seen_add(s, &model->candidates);
     for (bool dropped = true; dropped && !status && !hci_search_is_over(s);)
         status = hci_search_drop(s, model, &dropped, note);
+    hci_seen_add(s, &model->candidates);
     if (!status && !*again && !hci_search_is_over(s)) {
         status = hci_search_swap(s, model, again, note);
         if (!status && *again) status = hci_search_prune(s, model, note);
@@ -56,6 +59,7 @@ static hci_status rounds_run(hci_search *s, hci_fitted_model *model, hci_note *n
 {
     hci_status status = HCI_OK;
     bool again = true;
+    s->seen_count = 0;
     for (int round = 0; again && !status && round < MOST_ROUNDS && !hci_search_is_over(s); ++round) {
         hci_search_begin(s, "looking for effects", share_before(round), share_before(round + 1));
         status = round_run(s, model, &again, note);

@@ -3,9 +3,13 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_SEARCH_SEARCH_H
 #define HCI_SRC_HOST_DIAGNOSE_SEARCH_SEARCH_H
 
+#include <stdint.h>
+
 #include "host/diagnose/fit/known_residuals.h"
 #include "host/diagnose/search/attribution.h"
 #include "host/diagnose/search/fitted_model.h"
+
+enum { HCI_MOST_SEEN = 32 };
 
 #define HCI_DECISIVE 10.0 /* fall of the score by which an effect is accepted: odds of 150 to 1 */
 #define HCI_AS_GOOD  0.5  /* scores that differ by less are the same */
@@ -27,6 +31,9 @@ typedef struct {
                                        * more where it is to describe slopes */
     int richness;                     /* of saturation */
     hci_disbelieved disbelieved;      /* to be released */
+    uint32_t seen[HCI_MOST_SEEN];     /* which types the models of these rounds have, a bit each; none follows
+                                       * from a swap again */
+    size_t seen_count;
     double came_with[HCI_MOST_TYPES]; /* of each type, by how much the score fell when it came in alone */
     bool known_only;                  /* nothing unknown competes */
     bool magnetic_only;               /* nor what direct currents do not tell from the magnetic circuit */

@@ -1,6 +1,7 @@
 #include "host/diagnose/search/stability.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "host/base/memory.h"
 #include "host/diagnose/candidates/empirical_term.h"
@@ -106,23 +107,109 @@ static hci_status stays_count(leaving *l, hci_verdict *v, hci_note *note)
 
 /* ---- what predicts ---- */
 
+/* Whether the other runs tell what one shows: without it the sum of the squares falls by about what it
+ * misses. Where it falls by far less, as without the only run of a current, the model may be right and the
+ * others do not tell its values. */
+static bool is_told(double fall, double left_out)
+{
+    return fall * HARDLY_TOLD > left_out;
+}
+
 /* By how much runs left out are described better with a type than without: as a whole, which tells of small
  * effects in long recordings, or on the average, where a run that lies outside of the others counts no more
- * than they do. Both in units in which 0 is no better. */
-static hci_status worth_of(leaving *l, const hci_effect_type *type, double *worth, hci_note *note)
+ * than they do. Both in units in which 0 is no better. untold: of each run, whether it is not asked; NULL:
+ * all are. */
+static double worth_in(const leaving *l, const bool *untold)
 {
     double sum = 0.0, mean_log = 0.0;
+    for (size_t r = 0; r < l->equations.groups.count; ++r) {
+        const double rows = fmax(1.0, l->equations.groups.group[r].rows);
+        if (untold && untold[r]) continue;
+        sum += l->without[r] - l->with[r];
+        mean_log += rows * log((l->without[r] / rows + FLOOR) / (l->with[r] / rows + FLOOR));
+    }
+    return fmax(sum, mean_log);
+}
+
+/* Takes the torque of a type with the values that it has out of what a run shows. */
+static void values_take(const hci_candidates *model, const hci_effect_type *type, hci_normal_equations *run)
+{
+    size_t column = 0;
+    for (size_t k = 0; k < model->count; ++k)
+        for (size_t j = 0; model->candidate[k].in && j < model->candidate[k].count; ++j, ++column) {
+            const double *gram = run->gram + column * run->n;
+            const double value = hci_candidate_departure(&model->candidate[k], j);
+            if (model->candidate[k].type != type) continue;
+            run->square += value * (value * gram[column] - 2.0 * run->moment[column]);
+            for (size_t i = 0; i < run->n; ++i)
+                run->moment[i] -= value * gram[i];
+        }
+}
+
+/* The runs as they would be without a type whose values are known. moment: [groups][columns]. */
+static void known_fill(const leaving *l, const hci_effect_type *type, hci_normal_equations *run,
+                       double *moment)
+{
+    for (size_t r = 0; r < l->equations.groups.count; ++r) {
+        const hci_normal_equations *from = &l->equations.groups.group[r];
+        run[r] = *from;
+        run[r].moment = moment + r * from->n;
+        memcpy(run[r].moment, from->moment, from->n * sizeof *moment);
+        values_take(l->model, type, &run[r]);
+    }
+}
+
+/* Whether a run alone tells most of a combination of values, which the others hardly do: it is missed by far
+ * more than leaving it out lowers the squares of the others by. */
+static bool tells_alone(double fall, double left_out, double all_in)
+{
+    return left_out - all_in > HARDLY_TOLD * fmax(0.0, fall - all_in);
+}
+
+/* Which runs the others do not tell even with the values of a type known: what is wrong there is not its
+ * fault. The type is held. Returns how many the others do tell. */
+static hci_status untold_find(const leaving *l, const hci_effect_type *type, bool *untold, size_t *told,
+                              hci_note *note)
+{
+    const size_t groups = l->equations.groups.count, columns = hci_candidates_terms_in(l->model);
+    hci_normal_equations *run = hci_memory_new(groups + 1, sizeof *run);
+    double *moment = hci_memory_new(groups * (columns + 3) + 1, sizeof *moment);
+    double *left_out = moment ? moment + groups * columns : NULL;
+    const hci_groups known = {run, groups};
+    if (run && moment) known_fill(l, type, run, moment);
+    const bool made = run && moment && hci_left_out_squares(&known, l->precision, left_out) &&
+                      hci_all_in_squares(&known, l->precision, left_out + groups) &&
+                      hci_left_out_falls(&known, l->precision, left_out + 2 * groups);
+    *told = 0;
+    for (size_t r = 0; r < groups && made; ++r) {
+        untold[r] = tells_alone(left_out[2 * groups + r], left_out[r], left_out[groups + r]);
+        *told += !untold[r];
+    }
+    hci_memory_free(run);
+    hci_memory_free(moment);
+    return made ? HCI_OK : hci_note_memory(note, NULL, "leaving runs out");
+}
+
+/* The same of the runs that the others tell, as long as there are enough of these. */
+static hci_status worth_in_told(const leaving *l, const hci_effect_type *type, double *worth, hci_note *note)
+{
+    bool *untold = hci_memory_new(l->equations.groups.count + 1, sizeof *untold);
+    size_t told = 0;
+    if (!untold) return hci_note_memory(note, NULL, "leaving runs out");
+    const hci_status status = untold_find(l, type, untold, &told, note);
+    if (!status && told >= HCI_LEAST_GROUPS) *worth = worth_in(l, untold);
+    hci_memory_free(untold);
+    return status;
+}
+
+static hci_status worth_of(leaving *l, const hci_effect_type *type, double *worth, hci_note *note)
+{
     hold(l, type);
     if (!hci_left_out_squares(&l->equations.groups, l->equations.precision, l->with) ||
         !hci_left_out_squares(&l->equations.groups, l->precision, l->without))
         return hci_note_memory(note, NULL, "leaving runs out");
-    for (size_t r = 0; r < l->equations.groups.count; ++r) {
-        const double rows = fmax(1.0, l->equations.groups.group[r].rows);
-        sum += l->without[r] - l->with[r];
-        mean_log += rows * log((l->without[r] / rows + FLOOR) / (l->with[r] / rows + FLOOR));
-    }
-    *worth = fmax(sum, mean_log);
-    return HCI_OK;
+    *worth = worth_in(l, NULL);
+    return *worth < 0.0 ? worth_in_told(l, type, worth, note) : HCI_OK;
 }
 
 hci_status hci_search_left_out(hci_search *s, const hci_candidates *model, double *misfit, hci_note *note)
@@ -142,14 +229,6 @@ hci_status hci_search_left_out(hci_search *s, const hci_candidates *model, doubl
     return status;
 }
 
-/* Whether the other runs tell what one shows: without it the sum of the squares falls by about what it
- * misses. Where it falls by far less, as without the only run of a current, the model may be right and the
- * others do not tell its values. */
-static bool is_told(double fall, double left_out)
-{
-    return fall * HARDLY_TOLD > left_out;
-}
-
 /* What runs left out say of a model. */
 typedef struct {
     double taken; /* sum of their squares without any effect, less those of the model fitted to all of them */
@@ -157,11 +236,18 @@ typedef struct {
     size_t told;   /* of how many that is: of the others nothing is added */
 } promises;
 
+/* Where a run alone tells most of a combination of values, it misses that many times what leaving it out
+ * lowers the squares of the others by: no more is held against the model. */
+static double missed_of(double fall, double left_out, double all_in)
+{
+    return fmin(left_out - all_in, HARDLY_TOLD * fmax(0.0, fall - all_in));
+}
+
 static void promises_add(const leaving *l, size_t run, double fall, promises *p)
 {
     if (!is_told(fall, l->with[run])) return;
     p->taken += l->equations.groups.group[run].square - l->without[run];
-    p->missed += l->with[run] - l->without[run];
+    p->missed += missed_of(fall, l->with[run], l->without[run]);
     ++p->told;
 }
 

@@ -3,6 +3,7 @@
 
 #include "host/diagnose/search/attribute.h"
 #include "host/diagnose/search/candidate_models.h"
+#include "host/diagnose/search/seen.h"
 #include "support/searching.h"
 
 enum { SAMPLES = 300 }; /* of a run: a mechanical turn */
@@ -127,6 +128,22 @@ static void test_the_right_effect_stays(void)
     TEST_ASSERT_TRUE(!swapped && model_has("friction"));
 }
 
+/* Where these rounds have been at the better one and left it, they do not go there again. */
+static void test_no_model_is_returned_to(void)
+{
+    hci_candidates left = {0};
+    bool swapped = true;
+    const hci_candidate friction = candidate_of("friction", "coulomb", NULL, 0.0);
+    record_friction(1, 0.0);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_candidates_add(&left, &friction, &note));
+    hci_seen_add(&search, &left);
+    model_add("torque_sensor", "offset", NULL, 0.0);
+    model_fit();
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_swap(&search, &model, &swapped, &note));
+    TEST_ASSERT_TRUE(!swapped && model_has("torque_sensor"));
+    hci_candidates_release(&left);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -135,5 +152,6 @@ int main(void)
     RUN_TEST(test_columns_that_are_the_same);
     RUN_TEST(test_a_better_effect_takes_the_place);
     RUN_TEST(test_the_right_effect_stays);
+    RUN_TEST(test_no_model_is_returned_to);
     return UNITY_END();
 }

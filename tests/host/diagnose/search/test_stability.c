@@ -119,6 +119,58 @@ static void test_what_others_do_not_tell_is_not_missed(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.0, share);
 }
 
+/* Five slow runs under load, of which the torque per ampere is a little less, and a faster one without a
+ * current: friction that grows with the speed, which that one alone tells. */
+static void record_one_fast(double fast, double brake_Nm)
+{
+    static const double CURRENT_A[] = {9.0, 2.0, 5.0, 2.0, 7.2, 0.0};
+    for (size_t k = 0; k < RUNS; ++k) {
+        const double speed = k < 5 ? 60.0 + 0.2 * (double)k : fast;
+        record(SAMPLES, &(point){speed, CURRENT_A[k], 0.0,
+                                 brake_Nm + 1e-4 * speed + 0.003 * 1.5 * K_NM_PER_A * CURRENT_A[k], 0.0});
+    }
+    search_start();
+    model_add("friction", "coulomb", NULL, 0.0);
+    model_add("friction", "viscous", NULL, 0.0);
+    model_add("back_emf", "sine", NULL, 1.0);
+    model_fit();
+    model_fit();
+}
+
+static void forget_all(void)
+{
+    search_end();
+    memset(&model, 0, sizeof model);
+    for (size_t r = 0; r < runs.count; ++r)
+        rec_release(&run[r]);
+    runs.count = 0;
+}
+
+/* Left out it is missed with that back-EMF or without it, by chance more with it. */
+static void test_what_one_run_alone_tells_is_not_held_against_others(void)
+{
+    for (uint64_t k = 0; k < 8; ++k) {
+        seed = 99 + k;
+        record_one_fast(600.0, 0.05);
+        keep();
+        TEST_ASSERT_TRUE(model_has("friction") && model_has("back_emf"));
+        forget_all();
+    }
+}
+
+/* Nor is it missed, where the others tell it a little: what they tell it by is as uncertain as that. */
+static void test_what_one_run_tells_nearly_alone_is_not_missed(void)
+{
+    for (uint64_t k = 0; k < 8; ++k) {
+        double share = 1.0;
+        seed = 99 + k;
+        record_one_fast(75.0, 0.01);
+        TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_unpredicted(&search, &model.candidates, &share, &note));
+        TEST_ASSERT_DOUBLE_WITHIN(0.02, 0.0, share);
+        forget_all();
+    }
+}
+
 /* Without a current no run shows anything of a back-EMF: nothing is taken, and nothing is missed. */
 static void test_what_explains_nothing_misses_nothing(void)
 {
@@ -176,6 +228,8 @@ int main(void)
     RUN_TEST(test_what_one_part_asks_for_leaves);
     RUN_TEST(test_misfit_of_runs_left_out);
     RUN_TEST(test_what_others_do_not_tell_is_not_missed);
+    RUN_TEST(test_what_one_run_alone_tells_is_not_held_against_others);
+    RUN_TEST(test_what_one_run_tells_nearly_alone_is_not_missed);
     RUN_TEST(test_what_explains_nothing_misses_nothing);
     RUN_TEST(test_what_makes_others_worse_takes_nothing);
     RUN_TEST(test_stays_are_counted);
