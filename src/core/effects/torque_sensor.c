@@ -101,14 +101,15 @@ static void answer(const hci_sensor_stage *s, const hci_effect_run *run, size_t 
     const bool even = hci_stage_is_even(run->time_s, run->count, k);
     const hci_stage_inputs x = {*before, m->input, to, even ? run->torque_Nm[k + 1] : 0.0};
     const size_t parts = step_s >= 0.0 ? hci_stage_parts(s, step_s) : 0;
-    const hci_stage_part part = hci_stage_part_of(s, step_s / (double)(parts > 0 ? parts : 1));
     *before = x.from;
-    for (size_t j = 1; j <= parts; ++j)
-        go_on(s, &part, j < parts ? hci_stage_input_at(even, &x, (double)j / (double)parts) : to, m, own);
     if (parts == 0) {
         *m = (hci_stage_state){to, to, 0.0};
         memset(own->state, 0, sizeof own->state);
+        return;
     }
+    const hci_stage_part part = hci_stage_part_of(s, step_s / (double)parts);
+    for (size_t j = 1; j <= parts; ++j)
+        go_on(s, &part, j < parts ? hci_stage_input_at(even, &x, (double)j / (double)parts) : to, m, own);
 }
 
 /* The torque stays as it is. */

@@ -56,7 +56,7 @@ static void heap_sort(const range *r)
 
 /* ---- quicksort ---- */
 
-/* The median of the first, the middle and the last one to the front. */
+/* The median of the first, the middle and the last one to the front: the last one does not come before it. */
 static void choose_pivot(const range *r)
 {
     const size_t middle = r->count / 2, last = r->count - 1;
@@ -73,7 +73,7 @@ static size_t divide(const range *r)
     for (;;) {
         do
             ++low;
-        while (low < r->count && comes_after(r, 0, low));
+        while (comes_after(r, 0, low));
         do
             --high;
         while (comes_after(r, high, 0));

@@ -146,7 +146,8 @@ static void test_a_change_has_no_bump(void)
     hci_guard_change change;
     float last[3] = {1.0f, 2.0f, 0.0f}, now[3];
     hci_guard_change_start(&change, 0, 0.02f, 1e-3f);
-    TEST_ASSERT_TRUE(!hci_guard_change_is_free(&change, 0) && hci_guard_change_is_free(&change, 1));
+    TEST_ASSERT_EQUAL_INT(0, hci_guard_change_is_free(&change, 0));
+    TEST_ASSERT_EQUAL_INT(1, hci_guard_change_is_free(&change, 1));
     for (int k = 0; k < 100; ++k) {
         if (k == 10) hci_guard_change_to(&change, 1);
         if (k == 20) hci_guard_change_to(&change, 0); /* half way back */
@@ -160,7 +161,8 @@ static void test_a_change_has_no_bump(void)
     }
     TEST_ASSERT_EQUAL_FLOAT(-3.0f, now[0]);
     TEST_ASSERT_EQUAL_FLOAT(5.0f, now[1]);
-    TEST_ASSERT_TRUE(hci_guard_change_is_free(&change, 0) && !hci_guard_change_is_free(&change, 1));
+    TEST_ASSERT_EQUAL_INT(1, hci_guard_change_is_free(&change, 0));
+    TEST_ASSERT_EQUAL_INT(0, hci_guard_change_is_free(&change, 1));
     table[0].rows = NULL; /* it may be written: nothing reads it */
     hci_guard_change_f32(&change, table, 0u, 0.0f, now);
     TEST_ASSERT_EQUAL_FLOAT(-3.0f, now[0]);
@@ -212,7 +214,8 @@ static void test_alignment(void)
     hci_counter counter;
     for (int32_t direction = -1; direction <= 1; direction += 2) {
         memset(&counter, 0xA5, sizeof counter); /* nothing of what was there before is left */
-        hci_counter_start(&counter, 65536u, 4000u, direction, 777u);
+        hci_counter_start(&counter, 65536u, 4000u, 5 * direction, 777u);
+        TEST_ASSERT_EQUAL_INT32(direction, counter.direction); /* its sign counts */
         TEST_ASSERT_EQUAL_UINT32(hci_counter_own_angle(&counter), hci_counter_angle(&counter, 777u));
         (void)hci_counter_angle(&counter, 1234u);
         hci_counter_align(&counter, 0x31234567u, 7u);

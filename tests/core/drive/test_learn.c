@@ -277,6 +277,24 @@ static void test_table_of_nothing(void)
         TEST_ASSERT_EQUAL_FLOAT(0.0f, row[k]);
 }
 
+/* 3 sin + 4 cos is 5: at six errors it stands out, below it does not; with an error that nobody knows it
+ * does. */
+static void test_what_stands_out(void)
+{
+    hci_learn_result x = {0};
+    x.cogging[0] = 3.0f;
+    x.cogging[1] = -4.0f;
+    x.error = 1.25f;
+    TEST_ASSERT_EQUAL_INT(1, hci_learn_stands_out(&x, 4.0f));
+    TEST_ASSERT_EQUAL_INT(0, hci_learn_stands_out(&x, 4.01f));
+    x.cogging[1] = -3.99f;
+    TEST_ASSERT_EQUAL_INT(0, hci_learn_stands_out(&x, 4.0f));
+    x.error = 0.0f;
+    TEST_ASSERT_EQUAL_INT(1, hci_learn_stands_out(&x, 4.0f));
+    x.error = -1.0f;
+    TEST_ASSERT_EQUAL_INT(1, hci_learn_stands_out(&x, 1000.0f));
+}
+
 static float table_rows[2 * (POINTS + 1)];
 
 /* The table is the cogging, within the error that it states; friction is not in it, nor what is only noise.
@@ -369,6 +387,8 @@ static void test_no_blob(void)
     TEST_ASSERT_EQUAL_UINT32(0, hci_learn_write(&learn, &FACTS, room, sizeof room));
     learn.order_count = ORDERS;
     TEST_ASSERT_EQUAL(HCI_BLOB_NONE, hci_learn_restore(&learn, room, sizeof room));
+    TEST_ASSERT_EQUAL(HCI_BLOB_NONE, hci_learn_check(room, 12, NULL)); /* what tells one is there */
+    TEST_ASSERT_EQUAL(HCI_BLOB_CUT_OFF, hci_learn_check(room, 11, NULL));
     TEST_ASSERT_EQUAL_MEMORY(&before, &learn, sizeof learn);
 }
 
@@ -433,6 +453,7 @@ int main(void)
     RUN_TEST(test_too_few_turns);
     RUN_TEST(test_turns_of_one_direction);
     RUN_TEST(test_table_of_nothing);
+    RUN_TEST(test_what_stands_out);
     RUN_TEST(test_table);
     RUN_TEST(test_table_of_a_part);
     RUN_TEST(test_blob_restores_what_was_learnt);

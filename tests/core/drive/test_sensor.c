@@ -48,11 +48,15 @@ static void test_quantisation_is_to_the_nearest(void)
 
 static void test_delay_is_exact(void)
 {
-    const hci_sensor sensor = {.delay_steps = 37};
-    TEST_ASSERT_EQUAL_UINT(37, hci_sensor_workspace(&sensor));
-    hci_sensor_start(&sensor, &state, ring, 1, -1.0);
-    for (int k = 0; k < 1000; ++k)
-        TEST_ASSERT_EQUAL_DOUBLE(k < 37 ? -1.0 : k - 37, hci_sensor_read(&sensor, &state, k, 0.0));
+    static const int STEPS[] = {0, 1, 2, 37};
+    for (int j = 0; j < 4; ++j) {
+        const int late = STEPS[j];
+        const hci_sensor sensor = {.delay_steps = (size_t)late};
+        TEST_ASSERT_EQUAL_UINT(late, hci_sensor_workspace(&sensor));
+        hci_sensor_start(&sensor, &state, ring, 1, -1.0);
+        for (int k = 0; k < 1000; ++k)
+            TEST_ASSERT_EQUAL_DOUBLE(k < late ? -1.0 : k - late, hci_sensor_read(&sensor, &state, k, 0.0));
+    }
 }
 
 /* An encoder off the centre reads θ + ε sin θ. */

@@ -261,7 +261,10 @@ static void test_the_plant_has_the_torque(void)
 
 static void test_nothing_is_nothing(void)
 {
+    refusal = (hci_effects_refusal){HCI_EFFECTS_DELAY, hci_effect_type_find("cogging"), 7.0};
     attach(NOTHING);
+    TEST_ASSERT_NULL(refusal.type);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, refusal.value);
     TEST_ASSERT_EQUAL_UINT(0, drive.plant.effect_count);
     TEST_ASSERT_EQUAL_DOUBLE(0.0, drive.plant.coulomb_Nm);
     TEST_ASSERT_EQUAL_UINT(0, hci_effects_needs(&l.list));

@@ -719,6 +719,29 @@ static void test_a_phase_without_a_sensor(void)
     }
 }
 
+/* An error of the other two phases is in what is computed, that of the phase without a sensor in nothing; of
+ * one effect alone. */
+static void test_one_error_beside_a_phase_without_a_sensor(void)
+{
+    static const double STEP = 1e-6;
+    static const char *const NAME[] = {"a", "b", "c"}, *const TYPE[] = {"current_offset", "current_gain"};
+    uint64_t seed = 23;
+    for (int j = 0; j < 18; ++j) {
+        const int c = j % 3, erring = j / 3 % 3;
+        double by_value[1], torque[3];
+        hci_sample reading = el_sample(&seed);
+        reading.computed_phase = c + 1;
+        reading.i_abc[c] = -reading.i_abc[(c + 1) % 3] - reading.i_abc[(c + 2) % 3];
+        for (int k = 0; k < 3; ++k) {
+            el_list l = {0};
+            el_add(&l, TYPE[j / 9], NAME[erring], 0.0, 0.03 + (k == 0 ? -STEP : k == 1 ? STEP : 0.0));
+            torque[k] = hci_effects_predict(&m.machine, &l.list, &reading, by_value);
+        }
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, (torque[1] - torque[0]) / (2.0 * STEP), by_value[0]);
+        TEST_ASSERT_TRUE(erring == c ? by_value[0] == 0.0 : fabs(by_value[0]) > 1e-4);
+    }
+}
+
 /* Every effect of a sensor at once, each with several terms. */
 static void test_all_readings_and_back(void)
 {
@@ -1112,6 +1135,7 @@ int main(void)
     RUN_TEST(test_iron_drag_grows_with_load);
     RUN_TEST(test_nothing_behind_the_last_effect);
     RUN_TEST(test_a_phase_without_a_sensor);
+    RUN_TEST(test_one_error_beside_a_phase_without_a_sensor);
     RUN_TEST(test_all_readings_and_back);
     RUN_TEST(test_harmonics_of_a_resolver);
     RUN_TEST(test_angle_turns_with_the_load);

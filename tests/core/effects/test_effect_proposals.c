@@ -448,6 +448,18 @@ static void test_friction_that_fades(void)
     TEST_ASSERT_EQUAL_UINT64(1, count);
     TEST_ASSERT_EQUAL_DOUBLE(0.0, start[0]);
     TEST_ASSERT_TRUE(fabs(log(start[1] / 8.0)) <= 0.5 * log(100.0) / 15.0 + 0.02);
+    /* the row goes from 0.7 times the slowest speed to 0.7 times the fastest one */
+    for (int fast = 0; fast < 2; ++fast) {
+        const double of = fast ? 66.0 : 0.6;
+        for (int k = 0; k < MEANS; ++k) {
+            const double w = mean[k].speed_rad_per_s, sign = w > 0.0 ? 1.0 : -1.0;
+            mean[k].residual_Nm = -sign * 0.05 * exp(-w * w / (of * of));
+        }
+        count = 0;
+        hci_effect_type_find("stribeck_friction")->propose(&s, &with_start);
+        TEST_ASSERT_EQUAL_UINT64(1, count);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, fast ? 70.0 : 0.7, start[1]);
+    }
     static const double ALIKE[MEANS] = {2.0,  -2.0,  2.1,  -2.1,  20.0, -20.0,
                                         21.0, -21.0, 60.0, -60.0, 62.0, -62.0};
     for (int last = 0; last < 2; ++last) { /* three speeds within 10 %; with another one four */

@@ -356,6 +356,18 @@ static void check_torque(const point_case *c, const double x[2])
     TEST_ASSERT_TRUE(error <= 1e-14L * torque_size(&c->p, x) + 1e-14L * fabs(c->torque_Nm));
 }
 
+/* Whatever stood there before. */
+static void test_the_torque_of_cogging_alone_takes_no_current(void)
+{
+    for (int trial = 0; trial < 300; ++trial) {
+        point_case c = draw_case(trial % KINDS);
+        double x[2] = {7.0, -9.0};
+        c.torque_Nm = c.p.cogging_Nm;
+        TEST_ASSERT_EQUAL_INT(HCI_OK, shortest(&c, x));
+        TEST_ASSERT_TRUE(x[0] == 0.0 && x[1] == 0.0);
+    }
+}
+
 static void test_shortest_current_makes_the_torque_and_none_is_shorter(void)
 {
     for (int trial = 0; trial < 4000; ++trial) {
@@ -1064,6 +1076,7 @@ int main(void)
     RUN_TEST(test_machine_at_is_the_sampled_machine);
     RUN_TEST(test_machine_at_without_slopes);
     RUN_TEST(test_torque_in_the_plane_is_torque_of_the_phases);
+    RUN_TEST(test_the_torque_of_cogging_alone_takes_no_current);
     RUN_TEST(test_shortest_current_makes_the_torque_and_none_is_shorter);
     RUN_TEST(test_shortest_current_meets_the_global_optimality_condition);
     RUN_TEST(test_torque_is_not_reached_just_where_none_reaches_it);

@@ -368,6 +368,16 @@ static void test_lu_condition_needs_the_climb(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-3, (1.0 + t) * (1.0 + t), hci_lu_condition(3, a, pivot, 1.0 + t, work));
 }
 
+/* A⁻¹ = [2 0.9 2; 0 1 0.1; 0 1 0]: its largest column is the second one, 2.9. A⁻¹e/n = (4.9, 1.1, 1)/3, whose
+ * signs lead there; its sizes lead to the third one, 2.1. */
+static void test_lu_condition_goes_by_signs(void)
+{
+    double a[9] = {0.5, 0, 0, -10, 0, 10, 9.55, 1, -10}, work[6];
+    size_t pivot[3];
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_lu_factor(3, a, pivot));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.9, hci_lu_condition(3, a, pivot, 1.0, work));
+}
+
 /* Row 0 is so large that its small first element (10⁻⁹ of the row) is the pivot all the same. The elimination
  * then costs the other rows nine digits: invisible beside row 0, but not componentwise. */
 static void test_lu_refinement_of_badly_scaled_systems(void)
@@ -536,6 +546,24 @@ static size_t least_squares(size_t m, size_t n, const double *a, double toleranc
     hci_orthogonal_solve(&q, c, x, work);
     free(qr), free(factor_work), free(c), free(work), free(column);
     return q.rank;
+}
+
+/* The workspace is not larger than what is used of it. */
+static void test_all_of_the_workspace_is_used(void)
+{
+    for (size_t m = 1; m <= 5; ++m)
+        for (size_t n = 1; n <= 5; ++n) {
+            const size_t size = hci_orthogonal_workspace(m, n);
+            double *a = doubles(m * n), *work = doubles(size), condition;
+            size_t *column = indices(n);
+            for (size_t k = 0; k < m * n; ++k)
+                a[k] = 1.0 + sin(2.0 * (double)(k * k));
+            work[size - 1] = -7.0;
+            hci_orthogonal q = {.m = m, .n = n, .a = a, .column = column, .work = work};
+            TEST_ASSERT_EQUAL_INT(HCI_OK, hci_orthogonal_factor(&q, 0.0, &condition));
+            TEST_ASSERT_TRUE(work[size - 1] >= 0.0); /* a norm */
+            free(a), free(work), free(column);
+        }
 }
 
 /* X = A⁺, a column for each unit vector. */
@@ -841,6 +869,8 @@ int main(void)
     RUN_TEST(test_lu_wilkinson_growth);
     RUN_TEST(test_lu_condition_within_three);
     RUN_TEST(test_lu_condition_needs_the_climb);
+    RUN_TEST(test_lu_condition_goes_by_signs);
+    RUN_TEST(test_all_of_the_workspace_is_used);
     RUN_TEST(test_lu_refinement_of_badly_scaled_systems);
     RUN_TEST(test_lu_refinement_never_makes_it_worse);
     RUN_TEST(test_lu_refinement_of_each_component);
