@@ -154,15 +154,37 @@ static void test_levels_are_parabolas(void)
 /* Levels that have nothing to do with each other: at its own torque each is alone. */
 static void test_at_its_torque_a_level_is_alone(void)
 {
-    draw_loop(5);
+    static const uint32_t LEVELS[] = {1, 2, 3, 5};
+    for (int n = 0; n < 4; ++n) {
+        const uint32_t levels = LEVELS[n];
+        draw_loop(levels);
+        loop.points = 400;
+        make(HCI_LOOP_TABLE, 0.0f);
+        for (uint32_t l = 0; l < levels; ++l)
+            for (uint32_t k = 0; k < 50; ++k) {
+                const uint32_t angle = k * 2654435769u;
+                const float torque_Nm = levels > 1 ? -2.0f + 8.0f * (float)l / (float)(levels - 1) : 0.5f;
+                const hci_loop_reference r = hci_loop_at(&tables, angle, torque_Nm, 0.0f);
+                const double theta_rad = 2.0 * REF_PI * angle / 4294967296.0;
+                TEST_ASSERT_DOUBLE_WITHIN(1e-3, exact(l, 0, theta_rad), (double)r.id_A);
+                TEST_ASSERT_DOUBLE_WITHIN(1e-3, exact(l, 1, theta_rad), (double)r.iq_A);
+            }
+    }
+}
+
+/* Two levels are the ends of a straight line. */
+static void test_between_two_levels(void)
+{
+    draw_loop(2);
     loop.points = 400;
     make(HCI_LOOP_TABLE, 0.0f);
-    for (uint32_t l = 0; l < 5; ++l)
-        for (uint32_t k = 0; k < 50; ++k) {
-            const uint32_t angle = k * 2654435769u;
-            const hci_loop_reference r = hci_loop_at(&tables, angle, -2.0f + 2.0f * (float)l, 0.0f);
-            TEST_ASSERT_DOUBLE_WITHIN(1e-3, exact(l, 1, 2.0 * REF_PI * angle / 4294967296.0), (double)r.iq_A);
-        }
+    for (uint32_t k = 0; k < 50; ++k) {
+        const uint32_t angle = k * 2654435769u;
+        const double theta_rad = 2.0 * REF_PI * angle / 4294967296.0;
+        const hci_loop_reference r = hci_loop_at(&tables, angle, 0.0f, 0.0f);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-3, 0.75 * exact(0, 1, theta_rad) + 0.25 * exact(1, 1, theta_rad),
+                                  (double)r.iq_A);
+    }
 }
 
 /* No jump while the torque slews, and nothing beyond the ends. */
@@ -475,6 +497,7 @@ int main(void)
     RUN_TEST(test_lead_reads_ahead);
     RUN_TEST(test_levels_are_parabolas);
     RUN_TEST(test_at_its_torque_a_level_is_alone);
+    RUN_TEST(test_between_two_levels);
     RUN_TEST(test_torque_slews_without_a_bump_and_is_clamped);
     RUN_TEST(test_compensation_and_feedforward_are_the_formulas);
     RUN_TEST(test_a_measured_response_takes_the_place_of_the_gains);

@@ -155,14 +155,15 @@ static void test_table_refuses(void)
  * counts; an inductance below 0 in both axes, whose determinant is above. */
 static void test_table_refuses_each_alone(void)
 {
-    hci_inductance odd = {.order = 0.3};
+    const hci_inductance odd = {.order = 0.3}, last_odd[2] = {{.order = 2.0}, {.order = 0.3}};
     const hci_wave waves[3] = {{1.0, 1, 0.5, 0.0}, {0.3, 1, 0.1, 0.0}, {1.0, 1, 0.5, 0.0}};
     const hci_harmonic below = {-2.0, 0.1, 0.0};
     const hci_plant_inductance negative = {NULL, 0, -0.02, -0.01}, given = {NULL, 0, 0.02, 0.01};
-    const hci_plant_inductance other = {&odd, 1, 0.02, 0.01};
+    const hci_plant_inductance other = {&odd, 1, 0.02, 0.01}, last = {last_odd, 2, 0.02, 0.01};
     hci_machine machine = {.pole_pairs = 2, .back_emf = waves, .back_emf_count = 1};
     TEST_ASSERT_EQUAL_INT(1, hci_plant_table_turns(&machine, &given));
     TEST_ASSERT_EQUAL_INT(0, hci_plant_table_turns(&machine, &other));
+    TEST_ASSERT_EQUAL_INT(0, hci_plant_table_turns(&machine, &last));
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_plant_table_fill(&machine, &given, 4, rows, &plant.table));
     TEST_ASSERT_EQUAL_UINT(12 * 5, hci_plant_table_size(4));
     TEST_ASSERT_EQUAL_INT(HCI_ERROR_SINGULAR,

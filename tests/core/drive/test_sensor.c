@@ -1,6 +1,7 @@
 /* Sensors: what is exact exactly, what is random by its statistics. */
 #include <math.h>
 #include <stdint.h>
+#include <string.h>
 
 #include "hci/drive/sensor.h"
 #include "unity.h"
@@ -53,6 +54,7 @@ static void test_delay_is_exact(void)
         const int late = STEPS[j];
         const hci_sensor sensor = {.delay_steps = (size_t)late};
         TEST_ASSERT_EQUAL_UINT(late, hci_sensor_workspace(&sensor));
+        memset(&state, 0xA5, sizeof state); /* nothing of what was there before is left */
         hci_sensor_start(&sensor, &state, ring, 1, -1.0);
         for (int k = 0; k < 1000; ++k)
             TEST_ASSERT_EQUAL_DOUBLE(k < late ? -1.0 : k - late, hci_sensor_read(&sensor, &state, k, 0.0));

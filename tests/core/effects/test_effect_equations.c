@@ -825,11 +825,11 @@ static void test_delay_of_a_harmonic(void)
 
 /* A current that swings in the rotor frame, q(t) = 3 + 0.3 sin(wt + 0.4), over a delay of many radians of it.
  */
-static void test_delay_of_many_periods(void)
+static void check_delay_of_a_swing(double w, double speed_rad_per_s)
 {
-    const double w = 40.0 * OMEGA, delay_s = 9.0 / w;
+    const double delay_s = 9.0 / w;
     el_list l = {0};
-    hci_sample x = {.theta_m_rad = START, .speed_rad_per_s = OMEGA, .swing_rad_per_s = w};
+    hci_sample x = {.theta_m_rad = START, .speed_rad_per_s = speed_rad_per_s, .swing_rad_per_s = w};
     el_add(&l, "channel_delay", "current", 0.0, delay_s);
     for (int s = 0; s < 3; ++s) {
         const double c = sin(P * START - 2.0 * REF_PI * s / 3.0);
@@ -839,11 +839,17 @@ static void test_delay_of_many_periods(void)
     }
     const hci_sample y = hci_effects_undo(&l.list, P, &x), back = hci_effects_sense(&l.list, P, &y);
     for (int s = 0; s < 3; ++s) {
-        const double c = sin(P * (START + OMEGA * delay_s) - 2.0 * REF_PI * s / 3.0);
+        const double c = sin(P * (START + speed_rad_per_s * delay_s) - 2.0 * REF_PI * s / 3.0);
         TEST_ASSERT_DOUBLE_WITHIN(1e-12, (3.0 + 0.3 * sin(9.4)) * c, y.i_abc[s]);
         TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.3 * w * cos(9.4) * c, y.change_A_per_s[s]);
         TEST_ASSERT_DOUBLE_WITHIN(1e-12, x.i_abc[s], back.i_abc[s]);
     }
+}
+
+static void test_delay_of_many_periods(void)
+{
+    check_delay_of_a_swing(40.0 * OMEGA, OMEGA);
+    check_delay_of_a_swing(0.1, 0.0);
 }
 
 /* What is read is predicted from what is read, with every effect there is. */
