@@ -148,6 +148,10 @@ static void test_a_change_has_no_bump(void)
     hci_guard_change_start(&change, 0, 0.02f, 1e-3f);
     TEST_ASSERT_EQUAL_INT(0, hci_guard_change_is_free(&change, 0));
     TEST_ASSERT_EQUAL_INT(1, hci_guard_change_is_free(&change, 1));
+    table[1].rows = NULL; /* nor is the other one read yet */
+    hci_guard_change_f32(&change, table, 0u, 0.0f, now);
+    TEST_ASSERT_EQUAL_FLOAT(1.0f, now[0]);
+    table[1].rows = rows[1];
     for (int k = 0; k < 100; ++k) {
         if (k == 10) hci_guard_change_to(&change, 1);
         if (k == 20) hci_guard_change_to(&change, 0); /* half way back */

@@ -66,6 +66,8 @@ static void test_magnets_of_one_make(void)
     magnets->propose_alike(&five, 12.0, &TO);
     TEST_ASSERT_EQUAL_UINT64(5, count);
     TEST_ASSERT_EQUAL_DOUBLE(12.0 / 5.0, taken[4].order);
+    for (size_t k = 0; k < 5; ++k)
+        TEST_ASSERT_EQUAL_UINT64(2, taken[k].count); /* sine and cosine */
 }
 
 /* Orders in which load and cogging vary alike; a drift where a run is long enough to tell; a gain where both
@@ -392,6 +394,24 @@ static void test_series_of_the_coenergy(void)
     }
 }
 
+/* The highest order of a series is in it. */
+static void test_ends_of_the_series(void)
+{
+    static const struct {
+        const char *type;
+        int order;
+        size_t terms; /* up to it, and one order below */
+        size_t terms_below;
+    } END[] = {{"back_emf", 17, 6, 5}, {"back_emf", 7, 3, 2}, {"back_emf", 1, 1, 0}, {"cogging", 12, 2, 1}};
+    for (size_t k = 0; k < sizeof END / sizeof *END; ++k)
+        for (int below = 0; below < 2; ++below) {
+            const hci_effect_coenergy_series x = {2, 4, END[k].order - below, 20.0, false};
+            count = 0;
+            hci_effect_type_find(END[k].type)->propose_coenergy(&x, &TO);
+            TEST_ASSERT_EQUAL_UINT64(below ? END[k].terms_below : END[k].terms, count);
+        }
+}
+
 /* ---- friction at low speed ---- */
 
 enum { MEANS = 12 };
@@ -584,6 +604,7 @@ int main(void)
     RUN_TEST(test_orders_of_reluctance);
     RUN_TEST(test_powers_of_saturation);
     RUN_TEST(test_series_of_the_coenergy);
+    RUN_TEST(test_ends_of_the_series);
     RUN_TEST(test_friction_that_fades);
     RUN_TEST(test_the_speed_at_which_friction_fades);
     RUN_TEST(test_even_orders_of_a_back_emf);
