@@ -10,6 +10,7 @@
 #include "hci/host/emit/emit_foreign.h"
 #include "host/base/memory.h"
 #include "host/foreign/as_recording.h"
+#include "host/foreign/code.h"
 #include "host/foreign/text.h"
 #include "support/files.h"
 #include "unity.h"
@@ -192,6 +193,81 @@ static void test_nothing_is_zero_without_a_sign(void)
             hci_memory_free(csv);
             hci_foreign_map_release(&written);
         }
+}
+
+/* ---- rows of C ---- */
+
+/* Two or four numbers in each of 2, 4, 8 … 4096 rows, and nothing else. */
+static void test_rows_that_are_none(void)
+{
+    static const char *const NONE[] = {"float t;", "t[] ={{1, 2}, {3, 4}}"},
+                             *const OTHER[] = {
+                                 "t = {}",
+                                 "t = {{1, 2}}",
+                                 "t = {{1, 2}, {3, 4}, {5, 6}}",
+                                 "t = {{1}, {2}}",
+                                 "t = {{1, 2, 3}, {4, 5, 6}}",
+                                 "t = {{1, 2, 3, 4, 5}, {1, 2, 3, 4, 5}}",
+                                 "t = {{1, 2}, {1, 2, 3, 4}}",
+                                 "t = {{1, 2, 3, 4}, {1, 2}}",
+                                 "t = {{}, {1, 2}}",
+                                 "t = {{1, 2}, {x, 2}}",
+                                 "t = {{1, 2}, {3, 4}",
+                                 "t = {{1, 2}, {3, 4",
+                                 "t = {{1, 2}, {3, 4}; }",
+                                 "t = {1, 2, 3, 4}",
+                             };
+    for (size_t k = 0; k < sizeof NONE / sizeof *NONE + sizeof OTHER / sizeof *OTHER; ++k) {
+        const char *text = k < 2 ? NONE[k] : OTHER[k - 2];
+        hci_foreign_map_init(&back, &hci_foreign_simplefoc);
+        memset(&note, 0, sizeof note);
+        TEST_ASSERT_EQUAL_MESSAGE(HCI_ERROR_INPUT, hci_foreign_read_rows("a/map.h", text, &back, &note),
+                                  text);
+        TEST_ASSERT_EQUAL_STRING_MESSAGE(
+            k < 2
+                ? "a/map.h: found no table, expected rows {…} of 2 or 4 numbers, a power of two of them up "
+                  "to "
+                  "4096; emit it again"
+                : "a/map.h: found other rows, expected rows {…} of 2 or 4 numbers, a power of two of them up "
+                  "to 4096; emit it again",
+            note.text, text);
+        hci_foreign_map_release(&back);
+    }
+}
+
+/* Columns that a row does not have are 0; a float has its letter or not. */
+static void test_rows_of_two_and_four(void)
+{
+    static const struct {
+        const char *text;
+        double value[8];
+    } CASE[] = {{"t[2][2] = {\n  {1.5f, -2},\r\n  {3,4e1f}};", {1.5, -2.0, 0.0, 0.0, 3.0, 40.0, 0.0, 0.0}},
+                {"= {{1,2,3,4}, {5f, 6f, -7f, 8.25f},}", {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, -7.0, 8.25}}};
+    for (size_t k = 0; k < 2; ++k) {
+        hci_foreign_map_init(&back, &hci_foreign_simplefoc);
+        TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_foreign_read_rows("map", CASE[k].text, &back, &note),
+                                  note.text);
+        TEST_ASSERT_EQUAL_UINT64(2, back.points);
+        for (size_t j = 0; j < 8; ++j)
+            TEST_ASSERT_EQUAL_DOUBLE(CASE[k].value[j], back.value[j]);
+        hci_foreign_map_release(&back);
+    }
+}
+
+static void test_the_most_rows(void)
+{
+    for (size_t rows = 2048; rows <= 8192; rows *= 2) {
+        char *text = calloc(rows + 2, 8), *end = text + sprintf(text, "= {");
+        for (size_t k = 0; k < rows; ++k)
+            end += sprintf(end, "{%zu,1},", k % 10);
+        strcpy(end, "}");
+        hci_foreign_map_init(&back, &hci_foreign_simplefoc);
+        TEST_ASSERT_EQUAL(rows <= 4096 ? HCI_OK : HCI_ERROR_INPUT,
+                          hci_foreign_read_rows("map", text, &back, &note));
+        TEST_ASSERT_TRUE(rows > 4096 || (back.points == rows && back.value[4 * (rows - 1) + 1] == 1.0));
+        hci_foreign_map_release(&back);
+        free(text);
+    }
 }
 
 static unsigned byte_at(const char *text)
@@ -420,6 +496,9 @@ int main(void)
     RUN_TEST(test_the_wave_of_a_head);
     RUN_TEST(test_ranges_of_beckhoff);
     RUN_TEST(test_nothing_is_zero_without_a_sign);
+    RUN_TEST(test_rows_that_are_none);
+    RUN_TEST(test_rows_of_two_and_four);
+    RUN_TEST(test_the_most_rows);
     RUN_TEST(test_the_flash_of_openffboard);
     RUN_TEST(test_other_files_are_not_maps);
     RUN_TEST(test_cut_off_anywhere);
