@@ -361,7 +361,7 @@ typedef struct {
     hci_status status;
     double mean_square_A2;
     double condition;
-    double limit_A; /* of the phase current; 0: none */
+    double none_A; /* what is less is rounding */
     uint64_t hash;
     bool is_given; /* the components were not chosen */
 } outcome;
@@ -397,6 +397,15 @@ static uint64_t hash_of_waves(const hci_wave *wave, size_t count)
     return hash;
 }
 
+/* A billionth of the limit, and what makes a billionth of the torque that is missing. */
+static double rounding_A(const hci_machine_data *machine, const task *t, const hci_solution *solution)
+{
+    double emf = 0.0;
+    for (size_t k = 0; k < machine->model.back_emf_count; ++k)
+        emf = fmax(emf, hypot(machine->model.back_emf[k].sine, machine->model.back_emf[k].cosine));
+    return 1e-9 * fmax(t->options.limit_current_A, emf > 0.0 ? solution->worst_error_Nm / emf : 0.0);
+}
+
 static hci_status find(const hci_machine_data *machine, task *t, outcome *found, hci_note *note)
 {
     hci_solution solution;
@@ -404,7 +413,7 @@ static hci_status find(const hci_machine_data *machine, task *t, outcome *found,
     if (status != HCI_OK && status != HCI_NOT_REACHED) return status;
     found->mean_square_A2 = solution.mean_square_A2;
     found->condition = solution.condition;
-    found->limit_A = t->options.limit_current_A;
+    found->none_A = rounding_A(machine, t, &solution);
     found->hash = hash_of_waves(solution.current.wave, solution.current.count);
     found->is_given = t->options.set != NULL;
     check_laws(machine, &solution, hci_target_mean_Nm(&t->target));
@@ -437,11 +446,11 @@ static outcome solve(const uint8_t *data, size_t size, double shift)
 }
 
 /* Angles counted from elsewhere: the same copper, where rounding does not decide which components are chosen.
- * Beside a limit a current of a billionth of it is none. */
+ */
 static void check_rotated(const outcome *first, const outcome *rotated)
 {
     if (first->status != rotated->status || !(first->condition < 1e6)) return;
-    const double none_A = 1e-9 * first->limit_A;
+    const double none_A = fmax(first->none_A, rotated->none_A);
     fuzz_require(fabs(first->mean_square_A2 - rotated->mean_square_A2) <=
                      1e-6 * first->mean_square_A2 + none_A * none_A + 1e-200,
                  "the same copper loss whatever the zero of the angle");
