@@ -475,6 +475,7 @@ static hci_attribute_options how_to(const hci_dataset *b, const task *t)
 static hci_status judge(hci_dataset *b, const task *t, hci_attribution *a, hci_diagnosis *d, hci_note *note)
 {
     const double resolution_Nm = resolution_of(b, t);
+    d->resolution_Nm = resolution_Nm;
     hci_status status = a->unknown ? HCI_OK : misleading_leave(b, t->runs, a, note);
     if (!status) status = hci_next_points_tell_apart(&b->regression, t->machine, a, d, note);
     if (!status) status = fill(b, t->runs, a, d, note);

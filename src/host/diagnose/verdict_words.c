@@ -433,10 +433,16 @@ static void say_drowned(const hci_words *w, const hci_diagnosis *d)
 
 static void say_complete(const hci_words *w, const hci_diagnosis *d)
 {
-    hci_words_say(
-        w,
-        "Nothing is missing: what the model leaves, %.3g N·m rms, is the noise of the recordings (%.3g N·m).",
-        d->rms_after_Nm, d->noise_Nm);
+    if (d->rms_after_Nm > NEAR_NOISE * d->noise_Nm)
+        hci_words_say(w,
+                      "Nothing is missing that matters at the resolution of %.3g N·m: what the model leaves "
+                      "is %.3g N·m rms, %.2g times the noise of the recordings (%.3g N·m).",
+                      d->resolution_Nm, d->rms_after_Nm, d->rms_after_Nm / d->noise_Nm, d->noise_Nm);
+    else
+        hci_words_say(w,
+                      "Nothing is missing: what the model leaves, %.3g N·m rms, is the noise of the "
+                      "recordings (%.3g N·m).",
+                      d->rms_after_Nm, d->noise_Nm);
     if (d->holdout_after_Nm > NEAR_NOISE * d->holdout_noise_Nm)
         hci_words_say(w, " But on the runs that were held out it is %.3g N·m, and their noise is %.3g N·m.",
                       d->holdout_after_Nm, d->holdout_noise_Nm);

@@ -209,6 +209,21 @@ static void test_the_recording_that_disagrees(void)
     TEST_ASSERT_TRUE(says("it is as if phases b and c are swapped in its file: with that mended"));
 }
 
+/* A resolution that was asked for may lie far above the noise, which what is left is then not. */
+static void test_what_the_resolution_leaves_is_no_noise(void)
+{
+    d.verdict = HCI_DIAGNOSIS_COMPLETE;
+    d.means_open = d.means_alone = false;
+    d.resolution_Nm = 0.05;
+    d.noise_Nm = 0.006;
+    d.rms_after_Nm = 0.0252;
+    TEST_ASSERT_TRUE(
+        says("Nothing is missing that matters at the resolution of 0.05 N·m: what the model leaves is "
+             "0.0252 N·m rms, 4.2 times the noise of the recordings (0.006 N·m)."));
+    d.rms_after_Nm = 0.0061;
+    TEST_ASSERT_TRUE(says("is the noise of the recordings (0.006 N·m)."));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -226,5 +241,6 @@ int main(void)
     RUN_TEST(test_a_limit_with_nothing_left);
     RUN_TEST(test_noise_as_large_as_the_torque);
     RUN_TEST(test_the_recording_that_disagrees);
+    RUN_TEST(test_what_the_resolution_leaves_is_no_noise);
     return UNITY_END();
 }

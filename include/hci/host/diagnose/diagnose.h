@@ -192,6 +192,7 @@ typedef struct {
                          * what   acts under load is not known */
     const char *no_load_denied; /* why what the runs without a current show was left out, in words; NULL: it
                                  * was not */
+    double resolution_Nm;       /* torque that the model was not asked to be better than */
     double drowned_Nm; /* torque of interest, rated or of the currents, that the noise is as large as: nothing
                         * is said to be complete; 0: it is not */
     bool wanders;      /* something is left that does not repeat with the turn */
