@@ -90,6 +90,11 @@ bool hci_candidate_is_unbalanced(const hci_effect_type *type, size_t parameter, 
     return p->ordered && !p->whole && fabs(remainder(order, 6.0)) > HCI_ORDER_TOLERANCE;
 }
 
+bool hci_candidate_is_gain(const hci_effect_type *type)
+{
+    return type->sum_by_value && strcmp(type->parameter[0].unit, "1") == 0;
+}
+
 void hci_candidate_shorten(hci_candidate *x)
 {
     --x->count;

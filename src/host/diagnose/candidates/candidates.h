@@ -55,6 +55,10 @@ double hci_candidate_departure(const hci_candidate *candidate, size_t k);
  * back-EMF have their own sequence, and those of reluctance and saturation are 6k. */
 bool hci_candidate_is_unbalanced(const hci_effect_type *type, size_t parameter, double order);
 
+/* Whether a type is of current sensors that read in another proportion: what they read without a current says
+ * nothing of it. */
+bool hci_candidate_is_gain(const hci_effect_type *type);
+
 /* Leaves the last of several terms out. */
 void hci_candidate_shorten(hci_candidate *candidate);
 

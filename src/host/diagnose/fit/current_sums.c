@@ -1,7 +1,8 @@
 #include "host/diagnose/fit/current_sums.h"
 
 #include <math.h>
-#include <string.h>
+
+#include "host/diagnose/candidates/candidates.h"
 
 #define ZEROS_DRIFT 0.05 /* of a sensor's zero, from one run to another */
 
@@ -13,16 +14,11 @@ double hci_current_sum_of(const hci_binned_sample *sample, const hci_sample *tru
     return left_A;
 }
 
-bool hci_current_sum_scales(const hci_effect_type *type)
-{
-    return type->sum_by_value && strcmp(type->parameter[0].unit, "1") == 0;
-}
-
 double hci_current_sum_scale(const hci_effects *effects)
 {
     double scale = 1.0;
     for (size_t k = 0; k < effects->count; ++k)
-        for (size_t j = 0; j < effects->effect[k].count && hci_current_sum_scales(effects->effect[k].type);
+        for (size_t j = 0; j < effects->effect[k].count && hci_candidate_is_gain(effects->effect[k].type);
              ++j)
             scale += effects->effect[k].term[j].value / 3.0;
     return scale;

@@ -9,10 +9,6 @@
  * its reading. A. */
 double hci_current_sum_of(const hci_binned_sample *sample, const hci_sample *truth);
 
-/* Whether an effect reads currents by another factor each: then one that all phases have in common leaves a
- * sum of 0 as it is, and makes of its noise another one. */
-bool hci_current_sum_scales(const hci_effect_type *type);
-
 /* How many times the currents sensors read, on the average of the phases, by which sums without what sensors
  * add are as noisy as those of the readings; 1 without such an effect. */
 double hci_current_sum_scale(const hci_effects *effects);

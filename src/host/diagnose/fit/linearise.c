@@ -62,7 +62,7 @@ static bool can_show(const hci_run *run, const hci_run_statistics *x, const hci_
 {
     const unsigned traits = s->type->parameter[s->term[term].parameter].traits;
     if ((x->no_current || x->zeros_read) && (traits & HCI_PARAMETER_WITH_CURRENT)) return false;
-    if (x->no_current && s->type->sum_by_value) return false;
+    if (x->no_current && hci_candidate_is_gain(s->type)) return false;
     if (run->torque_source == HCI_TORQUE_MEASURED) return true;
     if (traits & HCI_PARAMETER_OF_TRANSDUCER) return false;
     if (is_of_unknown_load(run, s->type)) return false;
@@ -139,7 +139,7 @@ static double sum_by_value(const filling *f, const hci_model_column *c, const hc
     const hci_effect_type *type = c->candidate->type;
     const hci_effect_term *term = &c->candidate->term[c->term];
     const double by_value = f->sum_scale * type->sum_by_value(term, truth);
-    return hci_current_sum_scales(type) ? by_value / (1.0 + term->value) - sum_A / PHASES : by_value;
+    return hci_candidate_is_gain(type) ? by_value / (1.0 + term->value) - sum_A / PHASES : by_value;
 }
 
 /* The row of one sample: what the sum of the readings leaves, in units of its noise. */

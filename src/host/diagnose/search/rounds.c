@@ -9,6 +9,7 @@
 #include "host/diagnose/search/forward.h"
 #include "host/diagnose/search/rivals.h"
 #include "host/diagnose/search/seen.h"
+#include "host/diagnose/search/sensor_zeros.h"
 #include "host/diagnose/search/settle.h"
 #include "host/diagnose/search/stability.h"
 
@@ -32,6 +33,7 @@ static hci_status round_run(hci_search *s, hci_fitted_model *model, bool *again,
         if (!status && *again) status = hci_search_prune(s, model, note);
     }
     if (!status && !*again && !hci_search_is_over(s)) status = hci_search_few_values(s, model, again, note);
+    if (!status && !*again && !hci_search_is_over(s)) status = hci_search_sensor_zeros(s, model, again, note);
     return status;
 }
 

@@ -1,0 +1,74 @@
+#include "host/diagnose/search/sensor_zeros.h"
+
+#include <math.h>
+
+#include "host/diagnose/search/belief.h"
+
+enum { PHASES = 3 };
+
+/* The type that shows in the sum of the currents whatever flows; NULL: there is none. */
+static const hci_effect_type *type_of_zeros(void)
+{
+    size_t k = 0;
+    const hci_effect_type *type;
+    while ((type = hci_effect_type_at(k)) != NULL && (!type->sum_by_value || hci_candidate_is_gain(type)))
+        ++k;
+    return type;
+}
+
+/* A torque once an electrical turn, of a series that any phase may have and that needs no current. */
+static bool is_once_a_turn(const hci_candidate *x)
+{
+    return x->in && x->type->any_phase && x->count > 0 && fabs(x->term[0].order - 1.0) < HCI_ORDER_TOLERANCE;
+}
+
+/* Takes such torques out. Returns whether there were any. */
+static bool once_a_turn_leaves(hci_candidates *model)
+{
+    bool any = false;
+    for (size_t k = 0; k < model->count; ++k) {
+        if (!is_once_a_turn(&model->candidate[k])) continue;
+        model->candidate[k].in = false;
+        any = true;
+    }
+    return any;
+}
+
+/* Puts in the zeros of the phases that are not in. */
+static hci_status zeros_enter(hci_candidates *model, const hci_effect_type *type, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    for (size_t s = 0; s < PHASES && !status; ++s) {
+        hci_candidate x = {.type = type, .count = 1, .price = 2.0 * log(PHASES), .in = true};
+        x.term[0] = (hci_effect_term){s, 0.0, 0.0, NAN};
+        if (!hci_candidates_find_in(model, &x)) status = hci_candidates_add(model, &x, note);
+    }
+    return status;
+}
+
+/* What zeros of all phases explain more than those of some and the torque do, they explain by no more terms:
+ * the third of a star is free, and dropped if it says nothing. */
+static bool is_as_good(const hci_fitted_model *zeros, const hci_fitted_model *model)
+{
+    return zeros->fit.score < model->fit.score + log(fmax(2.0, model->fit.rows)) + HCI_DECISIVE;
+}
+
+hci_status hci_search_sensor_zeros(hci_search *s, hci_fitted_model *model, bool *changed, hci_note *note)
+{
+    const hci_effect_type *type = type_of_zeros();
+    hci_fitted_model zeros = {0};
+    *changed = false;
+    if (!type || s->no_current) return HCI_OK;
+    hci_status status = hci_fitted_model_copy(model, &zeros, note);
+    if (!status && once_a_turn_leaves(&zeros.candidates)) {
+        status = zeros_enter(&zeros.candidates, type, note);
+        if (!status) status = hci_search_fit(s, &zeros, note);
+        *changed = !status && is_as_good(&zeros, model);
+    }
+    if (*changed) {
+        hci_fitted_model_replace(model, &zeros);
+        status = hci_search_renew(s, model, note);
+    }
+    hci_fitted_model_release(&zeros);
+    return status;
+}
