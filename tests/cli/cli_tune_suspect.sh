@@ -145,6 +145,16 @@ crawl crank.csv x 'i + 0.1 * sin(2 * x)'
 tuned 1 crank
 says 'come once or twice a turn, and a load on the shaft makes that as well as the motor'
 
+# a weight, or a zero of i_q, pulls the same way in both directions: it is said, and the rest is explained
+for weight in 0.005 -0.02 0.2; do
+    crawl hoist.csv x "i + $weight"
+    tuned 0 hoist
+    check "the weight is not said" grep -q 'the same way in both directions: a weight on the shaft, or a zero of i_q' hoist/summary.json
+    says '^tuned: A ripple of 0.008.* falls to' '  friction .added.: coulomb = 0.0029[0-9]* ± '
+    rm -rf hoist
+done
+check "a weight where there is none" [ "$(grep -c "the same way in both directions" even/summary.json)" = 0 ]
+
 crawl still.csv x '0.036 * way + 0.0002 * (rand() - 0.5)'
 tuned 1 still
 says "^a table of no use: Nothing"

@@ -116,17 +116,27 @@ bool hci_is_slow_turn_both_ways(const hci_run *run, int pole_pairs)
     return fmin(up_rad, down_rad) > HCI_PI / pole_pairs;
 }
 
+static void take_from_iq(hci_run *run, int pole_pairs, size_t k, double iq_A)
+{
+    const hci_dq off = {.d = 0.0, .q = iq_A};
+    double phases_A[3];
+    hci_phases_of_dq(off, pole_pairs * run->theta_m_rad[k], phases_A);
+    for (size_t s = 0; s < 3; ++s)
+        run->i_A[3 * k + s] -= phases_A[s];
+}
+
+void hci_slow_turn_take_constant(hci_run *run, int pole_pairs, double iq_A)
+{
+    for (size_t k = 0; k < run->count; ++k)
+        take_from_iq(run, pole_pairs, k, iq_A);
+}
+
 void hci_slow_turn_correct(hci_run *run, int pole_pairs, double torque_constant_Nm_per_A)
 {
     const double made_Nm = rms_of_current(run, pole_pairs, torque_constant_Nm_per_A);
     const double rms_Nm = sqrt(hci_mean_square_about(run->torque_Nm, run->count, 0.0));
-    for (size_t k = 0; k < run->count; ++k) {
-        const hci_dq off = {.d = 0.0, .q = run->torque_Nm[k] / torque_constant_Nm_per_A};
-        double phases_A[3];
-        hci_phases_of_dq(off, pole_pairs * run->theta_m_rad[k], phases_A);
-        for (size_t s = 0; s < 3; ++s)
-            run->i_A[3 * k + s] -= phases_A[s];
-    }
+    for (size_t k = 0; k < run->count; ++k)
+        take_from_iq(run, pole_pairs, k, run->torque_Nm[k] / torque_constant_Nm_per_A);
     run->inertia_share = made_Nm > 0.0 ? rms_Nm / made_Nm : 0.0;
     if (rms_Nm > WORTH_WORD * made_Nm)
         hci_note_add(&run->remark,

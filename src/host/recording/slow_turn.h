@@ -26,6 +26,9 @@ bool hci_is_slow_turn_both_ways(const hci_run *run, int pole_pairs);
 /* Takes torque_Nm of the run, inertia × acceleration, out of what torque_constant·i_q is, and says so. */
 void hci_slow_turn_correct(hci_run *run, int pole_pairs, double torque_constant_Nm_per_A);
 
+/* Takes the same i_q, in A, out of the current at every angle of the run. */
+void hci_slow_turn_take_constant(hci_run *run, int pole_pairs, double iq_A);
+
 /* Gives a run with an angle and without time and speed a slow speed of the sign in which the angle goes, and
  * remarks it. Nothing where a speed is known, or rows that go to and fro have no order. False when memory is
  * out. O(samples). */

@@ -178,6 +178,27 @@ static void judge_load(hci_run *run, double constant)
         say_load(run, constant, &run->remark);
 }
 
+/* Standard errors beyond which a mean is more than chance. */
+#define SURE 5.0
+
+/* What pulls the same way in both directions is a load, as a weight is, or a zero of i_q: cogging torque has
+ * no mean over the turn, and friction turns round. */
+static void take_weight_out(const task *t, double constant)
+{
+    const hci_way *way = t->ways.way;
+    if (!t->has_ways || !way[0].any || !way[1].any || t->run->mean_is_unknown) return;
+    const hci_way_wave *forward = &way[0].order[0].iq_A, *back = &way[1].order[0].iq_A;
+    const double iq_A = 0.5 * (forward->cosine + back->cosine),
+                 error_A = 0.5 * hypot(forward->std_error, back->std_error);
+    if (!(fabs(iq_A) > SURE * error_A)) return;
+    hci_slow_turn_take_constant(t->run, t->run->pole_pairs, iq_A);
+    hci_note_add(
+        &t->run->remark,
+        "i_q makes %.3g N·m the same way in both directions: a weight on the shaft, or a zero of i_q, "
+        "and nothing that a motor makes by itself; it is taken out",
+        constant * iq_A);
+}
+
 /* The current is the reading, less what of it accelerates: torque_Nm. */
 static hci_status hold(const task *t)
 {
@@ -194,6 +215,7 @@ static hci_status hold(const task *t)
     const bool has_room =
         hci_row_direction_set(run) && (run->is_unsteady || hci_settled_rows_keep(run, run->pole_pairs));
     if (has_room) judge_load(run, constant);
+    if (has_room) take_weight_out(t, constant);
     return has_room ? HCI_OK : memory_error(t);
 }
 
