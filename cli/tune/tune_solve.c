@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "cli/terminal/progress.h"
 #include "cli/tune/tune_commands.h"
@@ -48,6 +49,7 @@ bool cli_tune_can_solve(const cli_tuning *t)
  * against a brake without one, and what the largest current makes. */
 typedef struct {
     double mean_Nm, brake_Nm, current_Nm;
+    double zero_Nm; /* of the sensor, which is not in mean_Nm */
 } recorded;
 
 /* Against a brake the phase currents of a run are those of its load. */
@@ -59,13 +61,28 @@ static double mean_length_A(const hci_run *r)
     return sqrt(2.0 / 3.0 * square / (double)r->count);
 }
 
+/* What the sensor of the torque reads of none, by what was found or declared. */
+static double sensor_zero_Nm(const cli_tuning *t)
+{
+    const hci_effects *list = &t->diagnosis.effects.list;
+    double zero_Nm = 0.0;
+    for (size_t k = 0; k < list->count; ++k)
+        for (size_t j = 0; j < list->effect[k].count; ++j) {
+            const hci_effect_term *term = &list->effect[k].term[j];
+            const hci_effect_parameter *of = &list->effect[k].type->parameter[term->parameter];
+            if ((of->traits & HCI_PARAMETER_OF_TRANSDUCER) && strcmp(of->unit, "Nm") == 0 && !of->ordered)
+                zero_Nm += term->value;
+        }
+    return zero_Nm;
+}
+
 static recorded recorded_of(const cli_tuning *t)
 {
     const double Nm_per_A = t->reading.run.torque_constant_Nm_per_A;
-    recorded x = {0.0, 0.0, 0.0};
+    recorded x = {0.0, 0.0, 0.0, sensor_zero_Nm(t)};
     for (size_t k = 0; k < t->diagnosis.runs; ++k)
         if (t->diagnosis.run[k].source == HCI_TORQUE_MEASURED)
-            x.mean_Nm = fmax(x.mean_Nm, fabs(t->diagnosis.run[k].mean_torque_Nm));
+            x.mean_Nm = fmax(x.mean_Nm, fabs(t->diagnosis.run[k].mean_torque_Nm - x.zero_Nm));
     for (size_t k = 0; k < t->runs.count; ++k) {
         const hci_run *r = &t->runs.run[k];
         const size_t count = cli_tune_has_no_current(t, r) ? 0 : 3 * r->count;
@@ -114,7 +131,11 @@ static void choose_torque(cli_tuning *t)
         t->mean_Nm = m->rated_torque_Nm, why = "the rated torque";
     else if (mean_Nm > 0.0)
         t->mean_Nm = rounded(mean_Nm),
-        why = is_measured ? "the largest mean torque of the recordings; up to there they tell what to expect"
+        why =
+            is_measured && fabs(x.zero_Nm) > 0.0
+                ? "the largest mean torque of the recordings, less the zero of its sensor; up to there they "
+                  "tell what to expect"
+            : is_measured ? "the largest mean torque of the recordings; up to there they tell what to expect"
                           : "what the recorded current makes against its load";
     else if (rated_Nm > 0.0)
         t->mean_Nm = rounded(rated_Nm / 3.0),

@@ -252,6 +252,17 @@ for other in one_m:torque_mNm one_c:torque_Ncm none_m:torque_mNm; do
     says '^tuned, with something left open: A ripple of 0.12 .* falls to at most'
     rm -rf mixed
 done
+# the zero of the torque sensor is no torque to be wanted
+zeroed() { # FILE A WAY SEED: 0.5 N·m too much
+    awk "BEGIN { srand($4); print \"time_s,theta_m_rad,ia_A,ib_A,ic_A,torque_Nm\"; turn = 6.283185307179586
+        for (k = 0; k < 4000; ++k) { x = 0.7 + $3 * turn * k / 1000
+            torque = $2 * 0.45 + 0.06 * sin(24 * x + 0.4) - 0.02 * $3 + 0.5 + 0.003 * (rand() - 0.5)
+            printf \"%.6f,%.7f,%.5f,%.5f,%.5f,%.6f\n\", k / 1000, x, $2 * sin(4 * x) + 0.002 * (rand() - 0.5), $2 * sin(4 * x - turn / 3) + 0.002 * (rand() - 0.5), $2 * sin(4 * x + turn / 3) + 0.002 * (rand() - 0.5), torque } }" >"$1"
+}
+zeroed z1.csv 0 1 1; zeroed z2.csv 0 -1 2; zeroed z3.csv 2 1 3; zeroed z4.csv 2 -1 4
+run 1 tune z1.csv z2.csv z3.csv z4.csv --pole-pairs 4 --kv 18.38 -o zeroed
+says 'a torque without ripple of 0.9[0-9]* N·m: the largest mean torque of the'
+check "the zero is not said" grep -q 'less the zero of its sensor' zeroed/summary.json
 # a point at another place of the sheet's figure looks like another unit of the torque
 loaded three.csv 3 1 4
 loaded none.csv 0 1 3
