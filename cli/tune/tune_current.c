@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "hci/machine/frames.h"
 #include "hci/math/harmonic.h"
 
 /* Of the phase currents, beside those that another recording has or the machine is rated for. */
@@ -19,17 +20,17 @@ double cli_tune_rms_A(const hci_run *r)
 }
 
 /* Of phase currents in the plane that turns with the angle: what a drive makes stands still there, and noise
- * and the offsets of sensors go to 0. */
-static double mean_vector(const hci_run *r)
+ * and the offsets of sensors go to 0. by_way: turned round where the shaft goes back, as against a brake. */
+static double mean_vector(const hci_run *r, bool by_way)
 {
-    double along = 0.0, across = 0.0;
-    for (size_t k = 0; k < r->count && r->theta_m_rad; ++k)
-        for (int s = 0; s < 3; ++s) {
-            const double x = r->pole_pairs * r->theta_m_rad[k] - 2.0 * HCI_PI * s / 3.0;
-            along += r->i_A[3 * k + (size_t)s] * cos(x);
-            across += r->i_A[3 * k + (size_t)s] * sin(x);
-        }
-    return 2.0 / 3.0 * hypot(along, across) / (double)r->count;
+    double d_A = 0.0, q_A = 0.0;
+    for (size_t k = 0; k < r->count && r->theta_m_rad; ++k) {
+        const hci_dq i = hci_park(hci_clarke(r->i_A + 3 * k), r->pole_pairs * r->theta_m_rad[k]);
+        const double way = by_way && r->speed_rad_per_s && r->speed_rad_per_s[k] < 0.0 ? -1.0 : 1.0;
+        d_A += way * i.d / (double)r->count;
+        q_A += way * i.q / (double)r->count;
+    }
+    return hypot(d_A, q_A);
 }
 
 bool cli_tune_has_no_current(const cli_tuning *t, const hci_run *r)
@@ -39,5 +40,33 @@ bool cli_tune_has_no_current(const cli_tuning *t, const hci_run *r)
     for (size_t k = 0; k < t->runs.count; ++k)
         most_A = fmax(most_A, cli_tune_rms_A(&t->runs.run[k]));
     if (rms_A <= NO_CURRENT * most_A) return true;
-    return r->theta_m_rad && mean_vector(r) < NOISE_OF_MEAN * rms_A / sqrt((double)r->count);
+    const double mean_A = fmax(mean_vector(r, false), mean_vector(r, true));
+    return r->theta_m_rad && mean_A < NOISE_OF_MEAN * rms_A / sqrt((double)r->count);
+}
+
+/* Of the mean square along a line, that noise makes across it. */
+#define ACROSS 0.0025
+
+/* Mean squares of i_d and i_q, and of their product, over all samples. */
+typedef struct {
+    double dd, dq, qq;
+} moments;
+
+static void add_moments(const hci_run *r, moments *m)
+{
+    for (size_t k = 0; k < r->count && r->theta_m_rad; ++k) {
+        const hci_dq i = hci_park(hci_clarke(r->i_A + 3 * k), r->pole_pairs * r->theta_m_rad[k]);
+        m->dd += i.d * i.d;
+        m->dq += i.d * i.q;
+        m->qq += i.q * i.q;
+    }
+}
+
+bool cli_tune_currents_are_in_line(const cli_tuning *t)
+{
+    moments m = {0.0, 0.0, 0.0};
+    for (size_t k = 0; k < t->runs.count; ++k)
+        if (!cli_tune_has_no_current(t, &t->runs.run[k])) add_moments(&t->runs.run[k], &m);
+    const double half = 0.5 * (m.dd + m.qq), spread = hypot(0.5 * (m.dd - m.qq), m.dq);
+    return half > 0.0 && half - spread < ACROSS * (half + spread);
 }

@@ -1,8 +1,10 @@
 #include "cli/tune/tune_found.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
+#include "cli/tune/tune_current.h"
 #include "cli/tune/tune_facts.h"
 #include "hci/host/waveform/turning_load.h"
 
@@ -36,12 +38,32 @@ static bool has_orders(const hci_effect *e)
     return false;
 }
 
-static void say_orders(cli_tuning *t, hci_tuning_part part, const hci_effect *e)
+/* The order of the balanced back-EMF that makes the same order of torque, beside i_q: 7 of 5; 0: none. */
+static double other_order(double order)
+{
+    const double six = 6.0 * round(order / 6.0);
+    if (fabs(fabs(order - six) - 1.0) > HCI_ORDER_TOLERANCE || six < 6.0) return 0.0;
+    return 2.0 * six - order;
+}
+
+/* "5", or "5 or 7" where the currents do not tell these apart. */
+static void name_order(const cli_tuning *t, double order, bool in_pairs, char name[2 * CLI_TUNE_ORDER])
+{
+    char one[CLI_TUNE_ORDER], other[CLI_TUNE_ORDER];
+    const double partner = in_pairs ? other_order(order) : 0.0;
+    cli_tune_order_words(t, fmin(order, partner > 0.0 ? partner : order), one);
+    snprintf(name, 2 * CLI_TUNE_ORDER, "%s", one);
+    if (partner > 0.0)
+        snprintf(name, 2 * CLI_TUNE_ORDER, "%s or %s", one,
+                 cli_tune_order_words(t, fmax(order, partner), other));
+}
+
+static void say_orders(cli_tuning *t, hci_tuning_part part, const hci_effect *e, bool in_pairs)
 {
     double above = HUGE_VAL;
     for (size_t shown = 0; shown < CLI_TUNE_ORDERS_SAID; ++shown) {
         double most = 0.0, error = 0.0, order = 0.0;
-        char name[CLI_TUNE_ORDER];
+        char name[2 * CLI_TUNE_ORDER];
         for (size_t k = 0; k < e->count; ++k) {
             double std_error = 0.0;
             const double amplitude = amplitude_of(e, k, &std_error);
@@ -49,8 +71,8 @@ static void say_orders(cli_tuning *t, hci_tuning_part part, const hci_effect *e)
                 most = amplitude, error = std_error, order = e->term[k].order;
         }
         if (!(most > 0.0)) return;
-        hci_tuning_say(&t->tuning, part, "  order %s: %.4g ± %.1g %s", cli_tune_order_words(t, order, name),
-                       most, error,
+        name_order(t, order, in_pairs, name);
+        hci_tuning_say(&t->tuning, part, "  order %s: %.4g ± %.1g %s", name, most, error,
                        strcmp(e->type->parameter[0].unit, "Nm") == 0 ? "N·m" : e->type->parameter[0].unit);
         above = most;
     }
@@ -69,6 +91,11 @@ static const hci_effect *effect_of(const cli_tuning *t, const hci_finding *f)
 static bool is_of_angle(const hci_effect *e)
 {
     return e && has_orders(e) && strcmp(e->type->parameter[0].unit, "Nm") == 0;
+}
+
+static bool is_of_emf(const hci_effect *e)
+{
+    return strcmp(e->type->parameter[0].unit, "Nm_per_A") == 0;
 }
 
 static bool is_friction(const hci_effect *e)
@@ -110,6 +137,20 @@ static const char *less_sensor_zero(const cli_tuning *t, const hci_effect *e)
                                                   : "";
 }
 
+/* What the table makes of it hangs on it as far as it takes an i_d, which is small. */
+static void say_pairs(cli_tuning *t)
+{
+    hci_tuning_say(
+        &t->tuning, HCI_TUNING_UNKNOWN,
+        "Which of two orders of the back-EMF makes a ripple, 5 or 7, 11 or 13: all currents have one "
+        "direction in the rotor frame, as with i_d at 0, and the torque shows the sum of the two "
+        "alone. So much of the ripple as the table answers by another i_d may be answered wrongly.");
+    hci_tuning_say(
+        &t->tuning, HCI_TUNING_NEXT,
+        "The same load once more with an i_d beside i_q, or voltages of the open machine, driven by "
+        "another: either tells orders 5 and 7 of the back-EMF apart.");
+}
+
 /* What several effects explain equally well is not found. */
 static void say_finding(cli_tuning *t, const hci_finding *f)
 {
@@ -120,7 +161,9 @@ static void say_finding(cli_tuning *t, const hci_finding *f)
     if (effect && has_orders(effect)) {
         hci_tuning_say(&t->tuning, part, "%s (%s), the largest orders:", f->effect,
                        hci_finding_verdict_name(f->verdict));
-        say_orders(t, part, effect);
+        const bool in_pairs = is_of_emf(effect) && !t->has_emf && cli_tune_currents_are_in_line(t);
+        say_orders(t, part, effect, in_pairs);
+        if (in_pairs) say_pairs(t);
         return;
     }
     hci_tuning_say(&t->tuning, part, "%s (%s): %s%s", f->effect,
@@ -141,11 +184,6 @@ static void fundamental_of(const hci_machine *m, double *sine, double *cosine)
     for (size_t k = 0; k < m->back_emf_count; ++k)
         if (m->back_emf[k].sequence == 1 && fabs(m->back_emf[k].order - 1.0) < HCI_ORDER_TOLERANCE)
             *sine += m->back_emf[k].sine, *cosine += m->back_emf[k].cosine;
-}
-
-static bool is_of_emf(const hci_effect *e)
-{
-    return strcmp(e->type->parameter[0].unit, "Nm_per_A") == 0;
 }
 
 /* A fundamental that is turned is no other back-EMF: the angle has another zero. */

@@ -23,11 +23,17 @@ static const char *becomes(double before_Nm, double after_Nm)
     return after_Nm < before_Nm ? "falls to" : "becomes one of";
 }
 
-/* A bound above what a plain sine leaves promises nothing. */
-static void say_bound(const hci_expected_ripple *e, double before_Nm, double after_Nm, char *text,
-                      size_t size)
+/* A bound above what a plain sine leaves promises nothing, and one far above it is none. */
+static void say_bound(const cli_tuning *t, double before_Nm, double after_Nm, char *text, size_t size)
 {
-    if (e->peak_to_peak_Nm < before_Nm)
+    const hci_expected_ripple *e = &t->solution.expected;
+    if (cli_tune_is_unpromised(t))
+        snprintf(
+            text, size,
+            "A ripple of %.3g N·m from peak to peak %s %.3g N·m in the model; what is left on the machine "
+            "these recordings do not tell (their bound is %.2g N·m)",
+            before_Nm, becomes(before_Nm, after_Nm), after_Nm, hci_ripple_bound_as_said(e->peak_to_peak_Nm));
+    else if (e->peak_to_peak_Nm < before_Nm)
         snprintf(
             text, size,
             "A ripple of %.3g N·m from peak to peak falls to at most %.3g N·m on the machine (95 %%), of "
@@ -61,7 +67,7 @@ static void say_fall(cli_tuning *t, char *text, size_t size)
                      : "The model does not explain the recordings",
                  before_Nm);
     else if (e->state == HCI_RIPPLE_KNOWN)
-        say_bound(e, before_Nm, after_Nm, text, size);
+        say_bound(t, before_Nm, after_Nm, text, size);
     else
         snprintf(text, size, "A ripple of %.3g N·m from peak to peak %s %.3g N·m in the model; %s", before_Nm,
                  becomes(before_Nm, after_Nm), after_Nm, not_known(t));
@@ -209,8 +215,10 @@ static void append_of_table(cli_tuning *t)
 {
     append_of_logs(t);
     if (t->is_solved && *t->solution.corrections)
-        append(t, "; this holds once the sensors of the drive, where they are those of the logs, are corrected: %s",
-               t->solution.corrections);
+        append(
+            t,
+            "; this holds once the sensors of the drive, where they are those of the logs, are corrected: %s",
+            t->solution.corrections);
     if (t->is_solved && *t->solution.corrections) append_of_gain(t);
     append_of_zero(t);
     append_of_doubt(t);

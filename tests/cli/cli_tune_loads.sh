@@ -55,6 +55,11 @@ says '^tuned: ' '  order 12: 0\.00(40|399)[0-9]* ± '
 check "loads are not apart" grep -q 'light.csv: .*i_q makes 0\.02[0-9]* N·m forward' both/summary.json
 check "what a load adds is said to take a sensor" [ "$(grep -c 'What load adds takes' both/summary.json)" -eq 0 ]
 
+# ---- a load that is the same forward and back is one, and what i_q alone does not tell of the back-EMF is named
+
+run 0 tune waits.csv --pole-pairs 5 --flux 0.0133333333333333 --slots 12 -o even
+says '^tuned: ' 'a torque without ripple of 0.04[0-9]* N·m: what the recorded current makes' '  order 5 or 7: 0\.00[0-9]* ± ' 'Which of two orders of the back-EMF makes a ripple, 5 or 7'
+
 # ---- beside an arm no bound is stated, by tune, by solve alone and by the commands that tune prints
 
 brake_log arm.csv 0.02 1.5 0 1 5 0.03
