@@ -70,6 +70,7 @@ spoil light unnamed 'cannot be scrolled by keys' 's/class="table" tabindex="0"/c
 spoil light ringless 'no ring about the focus' 's/:focus-visible{outline:3px solid/:focus-visible{outline:0 solid/'
 spoil light skipless 'the first stop is not a visible link' 's/\.skip:focus{top/.skip:focus{bottom/'
 spoil paper paper 'cut off on paper' 's/@media print{/@media nothing{/'
+spoil paper piece 'in one piece on paper' 's/@media print{/@media print{section{break-inside:avoid;min-height:500px}/'
 spoil script script 'different without JavaScript' 's|</main>|<script>document.body.append("more")</script>&|'
 
 # shellcheck disable=SC2086 # one word for each copy

@@ -116,6 +116,11 @@ def is_whole_on_paper(browser, url):
     yield from (f"cut off on paper: {text}" for text in found["clipped"])
     if found["width"] > PAPER[0]:
         yield f"wider than paper: {found['width']} of {PAPER[0]} pixels"
+    # What stays in one piece and does not fit any more leaves the page empty below.
+    for height in browser.evaluate("[...document.querySelectorAll('body *')].filter((e) => getComputedStyle(e).breakInside === 'avoid')"
+                                   ".map((e) => Math.round(e.getBoundingClientRect().height))"):
+        if height > 0.4 * PAPER[1]:
+            yield f"in one piece on paper: {height} of {PAPER[1]} pixels of a page"
     if not browser.pdf().startswith(b"%PDF"):
         yield "cannot be printed"
 
