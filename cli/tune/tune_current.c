@@ -20,17 +20,22 @@ double cli_tune_rms_A(const hci_run *r)
 }
 
 /* Of phase currents in the plane that turns with the angle: what a drive makes stands still there, and noise
- * and the offsets of sensors go to 0. by_way: turned round where the shaft goes back, as against a brake. */
-static double mean_vector(const hci_run *r, bool by_way)
+ * and the offsets of sensors go to 0. */
+static double mean_vector(const hci_run *r)
 {
     double d_A = 0.0, q_A = 0.0;
     for (size_t k = 0; k < r->count && r->theta_m_rad; ++k) {
         const hci_dq i = hci_park(hci_clarke(r->i_A + 3 * k), r->pole_pairs * r->theta_m_rad[k]);
-        const double way = by_way && r->speed_rad_per_s && r->speed_rad_per_s[k] < 0.0 ? -1.0 : 1.0;
-        d_A += way * i.d / (double)r->count;
-        q_A += way * i.q / (double)r->count;
+        d_A += i.d / (double)r->count;
+        q_A += i.q / (double)r->count;
     }
     return hypot(d_A, q_A);
+}
+
+/* Against a brake, whose current turns round with the motion, its mean may be 0. */
+static bool is_braked(const hci_run *r)
+{
+    return r->torque_source == HCI_TORQUE_HOLDING && hci_run_is_loaded(r, r->pole_pairs);
 }
 
 bool cli_tune_has_no_current(const cli_tuning *t, const hci_run *r)
@@ -40,8 +45,7 @@ bool cli_tune_has_no_current(const cli_tuning *t, const hci_run *r)
     for (size_t k = 0; k < t->runs.count; ++k)
         most_A = fmax(most_A, cli_tune_rms_A(&t->runs.run[k]));
     if (rms_A <= NO_CURRENT * most_A) return true;
-    const double mean_A = fmax(mean_vector(r, false), mean_vector(r, true));
-    return r->theta_m_rad && mean_A < NOISE_OF_MEAN * rms_A / sqrt((double)r->count);
+    return r->theta_m_rad && !is_braked(r) && mean_vector(r) < NOISE_OF_MEAN * rms_A / sqrt((double)r->count);
 }
 
 /* Of the mean square along a line, that noise makes across it. */
