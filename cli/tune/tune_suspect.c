@@ -121,6 +121,7 @@ void cli_tune_say_unit_of_ratio(const cli_tuning *t, double ratio, char text[CLI
         {30.0 / HCI_PI, RPM, "30/π is rad/s in a column that is read in rpm", "speed_rad_per_s", 's'},
         {HCI_PI / 30.0, 1.0, "π/30 is rpm in a column that is read in rad/s", "speed_rpm", 's'},
         {TURN, 1.0, "2π is turn/s in a column that is read in rad/s", "speed_turn_per_s", 's'},
+        {HCI_PI / 180.0, 1.0, "π/180 is deg/s in a column that is read in rad/s", "speed_deg_per_s", 's'},
         {1e-3, 0.0, "0.001 is ms in a column that is read in s", "time_ms", 't'},
         {1e-6, 0.0, "a millionth is µs in a column that is read in s", "time_us", 't'},
         {1e3, 0.0, "1000 is s in a column that is read in ms", "time_s", 't'},

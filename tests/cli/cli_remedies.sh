@@ -56,6 +56,8 @@ log time_s,theta_m_rad,speed_rad_per_s,iq_A 6.283185307 60 1 >rpm.csv
 tuned 1 rpm.csv; tells "the speed is in rpm .*--column 'speed_rpm=speed_rad_per_s'"; typed rpm.csv
 log time_s,theta_m_rad,speed_rad_per_s,iq_A 6.283185307 1 1 >turn_per_s.csv
 tuned 1 turn_per_s.csv; tells "--column 'speed_turn_per_s=speed_rad_per_s'"; tells_not 'electrical, not mechanical'; typed turn_per_s.csv
+log time_s,theta_m_rad,speed_rad_per_s,iq_A 6.283185307 360 1 >deg_per_s.csv
+tuned 1 deg_per_s.csv; tells "--column 'speed_deg_per_s=speed_rad_per_s'"; tells_not 'a gear of'; typed deg_per_s.csv
 log time_s,theta_m_rad,speed_rad_per_s,iq_A 6.283185307 6.283185307 1000 >milli.csv
 tuned 0 milli.csv --column iq_mA=iq_A; tells 'phase currents up to 0.0[0-9]* A' '`iq_A` is read in mA, as `iq_mA` says'
 log t,angle,vel,current 1 1 1 >turns.csv
