@@ -250,12 +250,12 @@ static void resonances_find(part_maps *m, double g)
     }
 }
 
+/* A lag has no v: the rest stays 0. */
 static void lags_find(part_maps *m, double g)
 {
     for (size_t k = 0; k < LANES; ++k) {
         m->y_by_y[k] = (m->tau_s[k] - g) / (m->tau_s[k] + g);
         m->y_by_sum[k] = g / (m->tau_s[k] + g);
-        m->y_by_v[k] = m->v_by_y[k] = m->v_by_v[k] = m->v_by_sum[k] = 0.0;
     }
 }
 

@@ -215,6 +215,31 @@ static void test_pwm_delay_is_one_sample(void)
     }
 }
 
+/* Through a low-pass of a share f the PI sees 1 − (1 − f)^k of a current that is there from the first sample
+ * on. */
+static void test_filter_of_the_current(void)
+{
+    static const double SHARE[] = {0.0, 0.25, 0.6, 1.0};
+    double unseen[2], seen[2];
+    for (int n = 0; n < 6; ++n) {
+        use_machine(&PM_SINE, 256);
+        drive.control.loop = HCI_CURRENT_PI;
+        drive.control.current = (hci_current_pi){.pi = {{5.0, 0.0}, {6.0, 0.0}}};
+        if (n > 1) drive.control.current.filter = SHARE[n - 2];
+        hci_measurement m = {{1.0, -0.3, -0.7}, 0.3, 0.0};
+        if (n == 0) memset(m.i_abc, 0, sizeof m.i_abc);
+        for (int k = 1; k <= 9; ++k) {
+            hci_control_step(&drive.control, &state.control, &m, 1.0);
+            const double *v = state.control.v, share = n > 1 && SHARE[n - 2] > 0.0 ? SHARE[n - 2] : 1.0;
+            if (n < 2) memcpy(n == 0 ? unseen : seen, v, sizeof seen);
+            for (int a = 0; a < 2 && n > 1; ++a)
+                TEST_ASSERT_DOUBLE_WITHIN(
+                    1e-12, unseen[a] + (1.0 - pow(1.0 - share, k)) * (seen[a] - unseen[a]), v[a]);
+        }
+        TEST_ASSERT_TRUE(n != 1 || hypot(seen[0] - unseen[0], seen[1] - unseen[1]) > 1.0);
+    }
+}
+
 /* A delay of a part of a sample: the voltage changes so many steps after its sample. */
 static void test_delay_in_steps(void)
 {
@@ -705,6 +730,7 @@ int main(void)
     RUN_TEST(test_current_loop_at_rest_is_of_second_order);
     RUN_TEST(test_decoupling_removes_motion);
     RUN_TEST(test_pwm_delay_is_one_sample);
+    RUN_TEST(test_filter_of_the_current);
     RUN_TEST(test_delay_in_steps);
     RUN_TEST(test_dead_time_is_against_each_phase_current);
     RUN_TEST(test_dead_time_of_no_current);

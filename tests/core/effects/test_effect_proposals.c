@@ -93,6 +93,7 @@ static void test_what_recordings_ask_for(void)
     TEST_ASSERT_EQUAL_DOUBLE(1.0 / 3.0, taken[0].order);
     TEST_ASSERT_EQUAL_DOUBLE(2.0 / 3.0, taken[1].order);
     TEST_ASSERT_TRUE(taken[2].expected > 0.0 && taken[2].expected < 0.4 && taken[3].expected > 0.0);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, taken[4].expected); /* any inertia */
 }
 
 /* Orders at which the angle may be off, but for those of a resolver and of an eccentric encoder, which are

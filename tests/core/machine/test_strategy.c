@@ -810,6 +810,14 @@ static void test_strategies_without_back_emf(void)
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_strategy_current(&p, HCI_STRATEGY_CANCEL, 0.2, NULL, x, NULL));
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_strategy_current(&p, HCI_STRATEGY_MTPA, 0.2, NULL, x, NULL));
     TEST_ASSERT_TRUE(x[0] == 0.0 && x[1] == 0.0);
+    /* no i_q is needed where there is no cogging torque, and none is enough where there is */
+    double least_A[2];
+    for (int k = 0; k < 2; ++k) {
+        p.cogging_Nm = 0.2 * k;
+        hci_strategy_current(&p, HCI_STRATEGY_CANCEL, 0.0, NULL, x, &least_A[k]);
+    }
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, least_A[0]);
+    TEST_ASSERT_EQUAL_DOUBLE(HUGE_VAL, least_A[1]);
 }
 
 static void test_shortest_current_is_never_longer_than_cancel(void)
