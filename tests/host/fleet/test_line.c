@@ -133,7 +133,12 @@ static void test_motors_of_two_folders(void)
     TEST_ASSERT_EQUAL_UINT64(0, line.dates_unread); /* an empty one is none */
     TEST_ASSERT_EQUAL_UINT64(0, line.parameters);
     hci_line_release(&line);
+    write_fleet("first", HCI_FLEET_FIT, OTHER);
     write_fleet("second", HCI_FLEET_FIT, OTHER);
+    TEST_ASSERT_EQUAL(HCI_OK, read_both());
+    TEST_ASSERT_EQUAL_UINT64(1, line.motors);
+    hci_line_release(&line);
+    write_fleet("first", HCI_FLEET_FIT, A);
     refuses(read_both(), "found motor `m3` in both with different rows, expected each once");
     hci_line_release(&line);
     write_fleet("second", HCI_FLEET_SOLVE, B);
