@@ -212,7 +212,7 @@ static hci_status add_slopes(const samples *s, hci_quadratic_model *to, hci_note
 
 static hci_status write_lower(const hci_effects_plant *lower, hci_quadratic_model *to, hci_note *note)
 {
-    samples s = {NULL, 0, 1};
+    samples s = {0};
     hci_status status = sample_lower(lower, &s, note);
     if (!status) status = add_back_emf(&s, to, note);
     if (!status) status = add_cogging(&s, to, note);
