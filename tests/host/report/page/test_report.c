@@ -849,6 +849,35 @@ static void test_simulation_with_before(void)
     }
 }
 
+/* From eight orders on their median is the floor: that of 0.1 … 0.8 N·m is 0.5; none of rounding. */
+static void test_simulation_floor(void)
+{
+    static hci_traces traces;
+    static const double SIZE[] = {0.3, 0.8, 0.1, 0.5, 0.7, 0.2, 0.6, 0.4};
+    const hci_report_sources sources = {.machine = "m", .scenario = "s"};
+    hci_harmonic spectrum[9] = {{0.0, 0.0, 2.5}};
+    hci_note note = {{0}};
+    hci_traces_begin(&traces, 0.0, 1.0);
+    for (int k = 0; k < 8; ++k)
+        spectrum[k + 1] = hci_harmonic_polar(k + 1.0, SIZE[k], 0.3 * k);
+    for (int n = 0; n < 3; ++n) {
+        hci_simulation s = simulation_with_before();
+        s.plain.order_count = 0;
+        s.spectrum_Nm = spectrum;
+        s.spectrum_count = n == 0 ? 8 : 9;
+        for (int k = 2; k < 9 && n == 2; ++k)
+            spectrum[k].sine = spectrum[k].cosine = 1e-17;
+        hci_output *out = open_page();
+        TEST_ASSERT_EQUAL(HCI_OK, hci_page_simulation(out, &s, &traces, &sources, &note));
+        read_page(out);
+        if (n == 1)
+            text_has("The floor is the median of all orders, 0.5 N·m: about what switching", page);
+        else
+            text_lacks("The floor is", page);
+        text_has(n < 2 ? "The largest order, 2, has 0.8 N·m" : "The largest order, 1, has 0.3 N·m", page);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -877,5 +906,6 @@ int main(void)
     RUN_TEST(test_solution_within_limits);
     RUN_TEST(test_simulation);
     RUN_TEST(test_simulation_with_before);
+    RUN_TEST(test_simulation_floor);
     return UNITY_END();
 }
