@@ -448,6 +448,34 @@ static void test_orders_that_lower_the_peaks_stay(void)
         TEST_ASSERT_TRUE(whole[k] > 0.999 * end[k]);
 }
 
+/* The back-EMF of 0.14 V·s alone: √3·0.14 ω is the dc link, less two dead times of each period of the PWM. */
+static void test_the_voltage_without_its_dead_time(void)
+{
+    static const char *const DEAD[] = {"", "dead_time,2,us\n", "dead_time,2,us\npwm_frequency,25,kHz\n"};
+    static const double LEFT[] = {1.0, 0.96, 0.9};
+    const hci_wave current = hci_wave_polar(1.0, 1, 1e-4, 0.0), emf = hci_wave_polar(1.0, 1, 0.14, 0.0);
+    const hci_loop_level level = {1e-5, &current, 1};
+    for (int k = 0; k < 3; ++k) {
+        char text[300];
+        snprintf(text, sizeof text,
+                 "resistance,0.1,ohm\ninductance_d,0.5,mH\ninductance_q,0.5,mH\ndc_link_voltage,60,V\n"
+                 "decoupling,none,\n%s",
+                 DEAD[k]);
+        hci_drive_data drive = drive_of(text);
+        hci_machine_data machine = machine_a, fitted;
+        hci_loop_task task = {&fitted, &drive, &level, 1, 0.0, 0.0, NULL};
+        hci_loop_set set;
+        hci_note note = {{0}};
+        machine.model.back_emf = &emf;
+        machine.model.back_emf_count = 1;
+        TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_drive_fit(&drive, &machine, &fitted, &note), note.text);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_loop_set_make(&task, &set, &note), note.text);
+        TEST_ASSERT_DOUBLE_WITHIN(0.3, LEFT[k] * 60.0 / (sqrt(3.0) * 0.14), set.voltage_rad_per_s);
+        hci_loop_set_release(&set);
+        hci_drive_release(&drive);
+    }
+}
+
 /* Levels that are not equally far apart, or an even number of them. */
 static void test_levels_that_do_not_fit_are_refused(void)
 {
@@ -498,6 +526,7 @@ int main(void)
     RUN_TEST(test_the_dc_link_is_that_of_the_torque);
     RUN_TEST(test_levels_of_torque_follow_the_solutions);
     RUN_TEST(test_orders_that_lower_the_peaks_stay);
+    RUN_TEST(test_the_voltage_without_its_dead_time);
     RUN_TEST(test_levels_that_do_not_fit_are_refused);
     return UNITY_END();
 }
