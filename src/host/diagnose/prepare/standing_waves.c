@@ -65,9 +65,10 @@ static size_t strongest(const hci_standing_waves *q, double *square, size_t coun
 bool hci_standing_waves_find(const hci_standing_waves *q, size_t most, size_t *periods, size_t *taken)
 {
     const size_t count = q->most_periods / q->stride;
-    double *square = hci_memory_new(4 * count + 2, sizeof *square), *sorted = square + count;
+    double *square = hci_memory_new(4 * count + 2, sizeof *square);
     *taken = 0;
     if (!square) return false;
+    double *sorted = square + count;
     for (size_t k = 0; k < q->axes; ++k)
         axis_add(q, q->value[k], count, sorted + count, square);
     memcpy(sorted, square, count * sizeof *square);
