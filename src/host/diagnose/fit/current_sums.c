@@ -6,11 +6,11 @@
 
 #define ZEROS_DRIFT 0.05 /* of a sensor's zero, from one run to another */
 
-double hci_current_sum_of(const hci_binned_sample *sample, const hci_sample *truth)
+double hci_current_sum_of(const hci_binned_sample *sample, const hci_sample *truth, double scale)
 {
     double left_A = sample->sum_A;
     for (int phase = 0; phase < 3; ++phase)
-        left_A -= sample->reading.i_abc[phase] - truth->i_abc[phase];
+        left_A += scale * truth->i_abc[phase] - sample->reading.i_abc[phase];
     return left_A;
 }
 
@@ -35,7 +35,7 @@ double hci_current_sums_rms(const hci_regression *e, const hci_effects *effects)
             const hci_binned_sample *sample = &e->samples->sample[k];
             const hci_sample truth =
                 hci_effects_undo_currents(effects, e->machine->pole_pairs, &sample->reading);
-            const double left = scale * hci_current_sum_of(sample, &truth) / deviation_A;
+            const double left = hci_current_sum_of(sample, &truth, scale) / deviation_A;
             square += sample->count * left * left;
             count += sample->count;
         }

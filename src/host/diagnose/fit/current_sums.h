@@ -5,13 +5,13 @@
 
 #include "host/diagnose/fit/regression.h"
 
-/* The sum of the readings of one sample, without what sensors add to it. truth: hci_effects_undo_currents of
- * its reading. A. */
-double hci_current_sum_of(const hci_binned_sample *sample, const hci_sample *truth);
-
-/* How many times the currents sensors read, on the average of the phases, by which sums without what sensors
- * add are as noisy as those of the readings; 1 without such an effect. */
+/* How many times the currents sensors read, on the average of the phases; 1 without such an effect. */
 double hci_current_sum_scale(const hci_effects *effects);
+
+/* The sum of the readings of one sample, without what sensors add to it, as noisy as that of the readings
+ * whatever the sensors have in common. truth: hci_effects_undo_currents of its reading. scale:
+ * hci_current_sum_scale. A. */
+double hci_current_sum_of(const hci_binned_sample *sample, const hci_sample *truth, double scale);
 
 /* Root mean square over the runs in use whose sums say something, in units of the noise of a sample; 0: none
  * does. O(samples·terms). */

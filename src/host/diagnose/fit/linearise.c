@@ -132,12 +132,13 @@ static void torque_rows(const filling *f, const hci_segment *s, const hci_predic
     if (hci_regression_mean_is_free(f->regression, s)) constants_free(f, s, noise);
 }
 
-/* What the sum of the readings leaves falls by, with a value: of gains g_s the sum is f Σ i_s,read/(1 + g_s)
- * with f = 1 + Σ g_s/3, so that a factor that all phases have in common leaves it as it is. */
-static double sum_by_value(const filling *f, const hci_model_column *c, const hci_sample *truth, double sum_A)
+/* What the sum of the readings leaves falls by, with a value: of gains g_s the currents are f Σ i_s,read/(1 +
+ * g_s) in it, with f = 1 + Σ g_s/3, which a factor that all phases have in common leaves as it is. */
+static double sum_by_value(const filling *f, const hci_model_column *c, const hci_sample *truth)
 {
     const hci_effect_type *type = c->candidate->type;
     const hci_effect_term *term = &c->candidate->term[c->term];
+    const double sum_A = truth->i_abc[0] + truth->i_abc[1] + truth->i_abc[2];
     const double by_value = f->sum_scale * type->sum_by_value(term, truth);
     return hci_candidate_is_gain(type) ? by_value / (1.0 + term->value) - sum_A / PHASES : by_value;
 }
@@ -149,10 +150,9 @@ static void sum_row(const filling *f, const hci_binned_sample *sample, double de
     const hci_sample truth =
         hci_effects_undo_currents(&f->model->list, f->regression->machine->pole_pairs, &sample->reading);
     const double weight = sqrt(sample->count) / deviation_A;
-    const double sum_A = hci_current_sum_of(sample, &truth);
-    *y = weight * f->sum_scale * sum_A;
+    *y = weight * hci_current_sum_of(sample, &truth, f->sum_scale);
     for (size_t k = 0; k < f->summed_count; ++k)
-        x[k] = weight * sum_by_value(f, &f->model->column[f->summed[k]], &truth, sum_A);
+        x[k] = weight * sum_by_value(f, &f->model->column[f->summed[k]], &truth);
 }
 
 /* The sum of the true currents is 0 where no neutral is connected: rows that gains and offsets must explain.

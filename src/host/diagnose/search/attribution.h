@@ -24,14 +24,16 @@ enum { HCI_MOST_TYPES = 32 };
 
 /* Start with {0}. */
 typedef struct {
-    hci_fitted_model model;   /* with the noise that was found in the end */
-    hci_fit before;           /* without any effect, with the same noise */
-    hci_fitted_model no_load; /* of the runs without a current alone; empty: they do not tell */
-    bool no_load_alone;       /* model and before are of those runs, since the others are not understood */
-    const char *slip;         /* what looks like a slip and no effect, in words; NULL: nothing. Static */
-    bool not_searched;        /* because of it no effect was looked for */
-    hci_work_end ended;       /* how */
-    bool unknown;             /* something is left that no effect explains, and it is not small */
+    hci_fitted_model model;        /* with the noise that was found in the end */
+    hci_fit before;                /* without any effect, with the same noise */
+    hci_fitted_model no_load;      /* of the runs without a current alone; empty: they do not tell */
+    bool by_angle[HCI_MOST_TYPES]; /* an angle that is read wrong makes most of what that type explains there
+                                    */
+    bool no_load_alone; /* model and before are of those runs, since the others are not understood */
+    const char *slip;   /* what looks like a slip and no effect, in words; NULL: nothing. Static */
+    bool not_searched;  /* because of it no effect was looked for */
+    hci_work_end ended; /* how */
+    bool unknown;       /* something is left that no effect explains, and it is not small */
     const hci_effect_type *disbelieved; /* describes the recordings best, with values that nobody would
                                          * believe; NULL: none */
     double disbelieved_share;           /* of the declared torque per ampere, that it leaves */

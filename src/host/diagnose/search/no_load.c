@@ -130,12 +130,31 @@ static hci_status untold_leave(hci_search *s, hci_fitted_model *model, hci_note 
     return status;
 }
 
+/* What an angle that is read wrong makes for the most part, of a torque that is declared, is certain only as
+ * long as all runs are understood. */
+static hci_status by_angle_find(hci_search *s, hci_attribution *a, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    for (size_t r = 0; r < hci_candidate_types() && !status; ++r)
+        if (hci_candidate_type(r)->in_machine &&
+            hci_candidates_have(&a->model.candidates, hci_candidate_type(r)))
+            status = hci_search_is_of_angle(s, &a->model, hci_candidate_type(r), &a->by_angle[r], note);
+    return status;
+}
+
+static void by_angle_leave(hci_attribution *a)
+{
+    for (size_t r = 0; r < hci_candidate_types(); ++r)
+        if (a->by_angle[r]) hci_candidates_remove_type(&a->no_load.candidates, hci_candidate_type(r));
+}
+
 static hci_status of_runs(hci_search *s, hci_attribution *a, hci_note *note)
 {
     bool found = false;
     s->no_current = true;
     hci_status status = effects_find(s, &a->model, &found, note);
     if (!status && found) status = untold_leave(s, &a->model, note);
+    if (!status && found) status = by_angle_find(s, a, note);
     s->no_current = false;
     if (!status && found) {
         unproven_leave(s->regression, &a->model.candidates);
@@ -229,6 +248,7 @@ hci_status hci_search_no_load_stays(hci_search *s, hci_attribution *a, hci_note 
 {
     const hci_candidates *shown = &a->no_load.candidates;
     if (a->slip) return means_stay(s, a, note);
+    by_angle_leave(a);
     if (hci_candidates_types_in(shown) == 0) return HCI_OK;
     if (!has_more(&a->model.candidates, shown)) return model_replace(s, a, note);
     if (!has_more(shown, &a->model.candidates)) return HCI_OK;

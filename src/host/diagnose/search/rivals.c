@@ -11,6 +11,7 @@
 #define EQUAL          6.0  /* models whose scores differ by less fit as well as each other */
 #define PART           0.3  /* of the gain of an effect that makes another one plausible beside it */
 #define PROMISED_SHARE 0.6  /* what a rival must promise of the gain of the effect … */
+#define MOST_OF        0.75 /* of that gain */
 #define PROMISED_LESS  20.0 /* … less so much: promises are of a linearised problem */
 
 enum { VALUES_MORE = 2 }; /* of a rival that may be what recordings show */
@@ -240,6 +241,28 @@ hci_status hci_search_is_told(hci_search *s, const hci_fitted_model *model, cons
         status = rivalry_next(&r, &rival, &with, note);
         if (status || with == hci_candidate_types()) break;
         *told = !is_of_its_own(type, hci_candidate_type(with)) || !describes_as_well(model, &rival);
+        hci_fitted_model_release(&rival);
+    }
+    rivalry_end(&r);
+    return status;
+}
+
+hci_status hci_search_is_of_angle(hci_search *s, const hci_fitted_model *model, const hci_effect_type *type,
+                                  bool *of_angle, hci_note *note)
+{
+    rivalry r;
+    hci_fitted_model rival = {0};
+    size_t with = 0;
+    hci_status status = rivalry_start(s, model, type, &r, note);
+    const double gain = r.without.fit.score - model->fit.score;
+    *of_angle = false;
+    while (!status && !*of_angle && !type->keeps_currents) {
+        status = rivalry_next(&r, &rival, &with, note);
+        if (status || with == hci_candidate_types()) break;
+        *of_angle =
+            hci_candidate_type(with)->keeps_currents &&
+            hci_candidates_terms_in(&rival.candidates) <= hci_candidates_terms_in(&model->candidates) &&
+            r.without.fit.score - rival.fit.score > MOST_OF * gain;
         hci_fitted_model_release(&rival);
     }
     rivalry_end(&r);

@@ -22,4 +22,9 @@ hci_status hci_search_instead(hci_search *search, const hci_fitted_model *model,
 hci_status hci_search_is_told(hci_search *search, const hci_fitted_model *model, const hci_effect_type *type,
                               bool *told, hci_note *note);
 
+/* Whether an angle that is read wrong, in the place of an effect, makes most of what it explains. of_angle:
+ * out. HCI_ERROR_MEMORY. */
+hci_status hci_search_is_of_angle(hci_search *search, const hci_fitted_model *model,
+                                  const hci_effect_type *type, bool *of_angle, hci_note *note);
+
 #endif

@@ -126,6 +126,33 @@ static void test_a_common_gain_is_as_expected(void)
                                   term_in(&model.candidates, "current_gain", "b", 0.0)->value);
 }
 
+/* Readings that are smoothed are not as noisy as their sum, which then says no more of a gain. */
+static void test_smooth_readings_tell_no_gain(void)
+{
+    static const char *const PHASE[3] = {"a", "b", "c"};
+    for (size_t r = 0; r < 2; ++r) {
+        record(N, &(point){r ? -60.0 : 60.0, 0.5, 0.0, 0.0, 0.0});
+        run[r].has_sum = true;
+        for (size_t k = 0; k < 3 * N; ++k)
+            run[r].i_A[k] += 40.0 * READ_A * ref_normal(&seed);
+    }
+    search_start();
+    for (size_t k = 0; k < dataset.samples.count; ++k) {
+        hci_sample *x = &dataset.samples.sample[k].reading;
+        rec_phases(0.0, 0.5, P * x->theta_m_rad, x->i_abc);
+    }
+    for (int s = 0; s < 3; ++s) {
+        hci_candidate x = candidate_of("current_gain", PHASE[s], NULL, 0.0);
+        x.deviation = 0.1;
+        TEST_ASSERT_EQUAL_INT(HCI_OK, hci_candidates_add(&model.candidates, &x, &note));
+    }
+    model_fit();
+    model_fit();
+    for (int s = 0; s < 3; ++s)
+        TEST_ASSERT_DOUBLE_WITHIN(0.05, 0.0,
+                                  term_in(&model.candidates, "current_gain", PHASE[s], 0.0)->value);
+}
+
 /* Four runs in which nothing flows and each sensor reads its zero, one of them drifted, beside a run at 9 A.
  */
 static void record_zeros(double drift, double torque_noise_Nm)
@@ -210,6 +237,7 @@ int main(void)
     RUN_TEST(test_what_shows_in_the_sum_is_noticeable);
     RUN_TEST(test_a_common_gain_leaves_as_much_of_the_sum);
     RUN_TEST(test_a_common_gain_is_as_expected);
+    RUN_TEST(test_smooth_readings_tell_no_gain);
     RUN_TEST(test_zeros_are_left_and_taken);
     RUN_TEST(test_zeros_of_two_sensors);
     RUN_TEST(test_a_fit_finds_the_zeros);

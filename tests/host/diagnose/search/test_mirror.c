@@ -96,6 +96,15 @@ static void test_of_runs_in_use(void)
     search.regression->use = use;
 }
 
+/* Together they are a torque for one sign of i_q alone, as of a force along the shaft. */
+static void test_a_torque_of_one_sign_leaves(void)
+{
+    add("saturation", "d1q2_cosine", 0.0, 0.05);
+    add("saturation", "d1q3_cosine", 0.0, 0.035);
+    TEST_ASSERT_FALSE(is_broken(0));
+    TEST_ASSERT_TRUE(is_broken(1));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -103,6 +112,7 @@ int main(void)
     RUN_TEST(test_beside_a_larger_saliency_it_is_believed);
     RUN_TEST(test_only_what_keeps_its_sign_leaves);
     RUN_TEST(test_powers_of_the_currents);
+    RUN_TEST(test_a_torque_of_one_sign_leaves);
     RUN_TEST(test_of_the_mean_alone);
     RUN_TEST(test_of_runs_in_use);
     return UNITY_END();

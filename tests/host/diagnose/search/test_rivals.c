@@ -144,6 +144,49 @@ static void test_no_model_is_returned_to(void)
     hci_candidates_release(&left);
 }
 
+/* ---- an angle that is read wrong ---- */
+
+/* A cogging torque of 0.1 N·m at order 6 is declared; the torque is that at another angle, or of order 8
+ * besides. */
+static void record_declared(double error_rad, double more_Nm)
+{
+    hci_machine_release(&machine);
+    files_write(files_path("cogging.csv"), "order,amplitude_Nm,phase_rad\n6,0.1,0\n");
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_machine_read(files_root, &machine, &note), note.text);
+    for (size_t k = 0; k < 4; ++k) {
+        record(SAMPLES, &(point){k % 2 ? -60.0 : 60.0, 0.0, 0.0, 0.0, 0.0});
+        for (size_t j = 0; j < SAMPLES; ++j) {
+            const double x = P * run[k].theta_m_rad[j];
+            run[k].torque_Nm[j] += 0.1 * sin(6.0 * (x + error_rad * sin(x))) + more_Nm * sin(8.0 * x);
+        }
+    }
+    search_start();
+}
+
+static bool cogging_is_of_angle(const double order[3])
+{
+    bool of_angle = false;
+    for (int k = 0; k < 3 && order[k] > 0.0; ++k)
+        model_add("cogging", "sine", "cosine", order[k]);
+    model_fit();
+    model_fit();
+    TEST_ASSERT_EQUAL_INT(
+        HCI_OK, hci_search_is_of_angle(&search, &model, hci_effect_type_find("cogging"), &of_angle, &note));
+    return of_angle;
+}
+
+static void test_sidebands_of_a_declared_torque_are_of_the_angle(void)
+{
+    record_declared(0.03, 0.004);
+    TEST_ASSERT_TRUE(cogging_is_of_angle((const double[]){5.0, 7.0, 8.0}));
+}
+
+static void test_another_order_is_none(void)
+{
+    record_declared(0.0, 0.02);
+    TEST_ASSERT_FALSE(cogging_is_of_angle((const double[]){8.0, 0.0, 0.0}));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -153,5 +196,7 @@ int main(void)
     RUN_TEST(test_a_better_effect_takes_the_place);
     RUN_TEST(test_the_right_effect_stays);
     RUN_TEST(test_no_model_is_returned_to);
+    RUN_TEST(test_sidebands_of_a_declared_torque_are_of_the_angle);
+    RUN_TEST(test_another_order_is_none);
     return UNITY_END();
 }
