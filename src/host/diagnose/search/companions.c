@@ -6,9 +6,10 @@
 
 #define SERIES_ERROR 0.002
 #define SWING_ERROR  0.005
-#define JITTER_ERROR 0.25 /* of a delay that is another one at each sample */
-#define JITTER       1.5  /* largest over least noise of a run that tells of it */
-#define CRAWL_ERROR  0.01 /* of a cogging torque that the current answers within a few samples */
+#define SLOPE_ERROR  0.005 /* of a torque that goes with an acceleration, which is a slope of readings */
+#define JITTER_ERROR 0.25  /* of a delay that is another one at each sample */
+#define JITTER       1.5   /* largest over least noise of a run that tells of it */
+#define CRAWL_ERROR  0.01  /* of a cogging torque that the current answers within a few samples */
 #define ANY_ERROR    3e-4 /* a noise of another size in each run, an inertia, the angle between two samples */
 #define KNEE                                                                                                 \
     0.1 /* of what a power describes of tanh x or x/√(1 + x²) up to x = 1, that a linear part beside it   \
@@ -65,12 +66,18 @@ static bool crawls(const hci_regression *e, const hci_effect_type *type)
     return any && type->any_phase && type->propose_coenergy;
 }
 
+bool hci_companion_is_by_slope(const hci_effect_type *type)
+{
+    return (type->needs & HCI_EFFECT_NEEDS_ACCELERATION) != 0;
+}
+
 /* What a model of the type gets wrong, as a share of what it explains: a series in the currents is not what
  * iron does to the last digit, nor what a sensor answers between samples that are far apart in a period, nor
  * a delay the filter that makes it. */
 double hci_companion_error(const hci_regression *e, const hci_candidates *model, const hci_effect_type *type)
 {
     if (type->late && jitters(e)) return JITTER_ERROR;
+    if (hci_companion_is_by_slope(type)) return SLOPE_ERROR;
     if (type->beyond_quadratic) return SERIES_ERROR;
     if (crawls(e, type)) return CRAWL_ERROR;
     return swings(model, type) ? SWING_ERROR : 0.0;
@@ -96,6 +103,19 @@ static double least_of_iron(const hci_regression *e, const hci_attribution *a, c
         if (other->in && other != v && error > 0.0 && !both) most = fmax(most, error * other->gain);
     }
     return most > 0.0 ? fmax(HCI_DECISIVE, most) : 0.0;
+}
+
+/* The same of any effect but one that brakes, beside a torque that goes with an acceleration. */
+static double least_of_slopes(const hci_attribution *a, const hci_verdict *v)
+{
+    double most = 0.0;
+    if (v->type->coulomb_Nm) return 0.0;
+    for (size_t r = 0; r < a->types; ++r) {
+        const hci_verdict *other = &a->verdict[r];
+        if (other->in && other != v && hci_companion_is_by_slope(other->type))
+            most = fmax(most, SLOPE_ERROR * other->gain);
+    }
+    return most;
 }
 
 /* The same of any effect: a small part of what the largest of the others explains. */
@@ -243,5 +263,6 @@ static bool is_by_iron(const hci_effect_type *type)
 double hci_companion_least(const hci_regression *e, const hci_attribution *a, const hci_verdict *v)
 {
     if (is_within_slope(e, &a->model.candidates, v->type)) return INFINITY;
-    return fmax(least_of_any(a, v), is_by_iron(v->type) ? least_of_iron(e, a, v) : 0.0);
+    const double least = fmax(least_of_any(a, v), least_of_slopes(a, v));
+    return fmax(least, is_by_iron(v->type) ? least_of_iron(e, a, v) : 0.0);
 }

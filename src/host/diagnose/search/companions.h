@@ -23,6 +23,11 @@ double hci_companion_of_sensor(const hci_attribution *attribution, const hci_ver
 double hci_companion_of_series(const hci_regression *regression, const hci_attribution *attribution,
                                const hci_verdict *verdict);
 
+/* Whether the torque of a type goes with an acceleration, a slope of readings that is rounded where the speed
+ * begins to change and ends to: effects but plain friction that explain less than its error are a part of it.
+ */
+bool hci_companion_is_by_slope(const hci_effect_type *type);
+
 /* What a type in a model gets wrong, as a share of what it explains: effects of the iron that explain less
  * are a part of that. */
 double hci_companion_error(const hci_regression *regression, const hci_candidates *model,

@@ -345,13 +345,27 @@ static double least_of_iron(const hci_search *s, const hci_candidates *model, co
     return least;
 }
 
+/* The same of any effect but plain friction beside a torque that goes with an acceleration. */
+static double least_of_slopes(const hci_search *s, const hci_candidates *model, const hci_effect_type *type)
+{
+    double least = 0.0;
+    for (size_t r = 0; r < hci_candidate_types() && !type->coulomb_Nm; ++r) {
+        const hci_effect_type *other = hci_candidate_type(r);
+        if (other == type || !hci_companion_is_by_slope(other) || !hci_candidates_have(model, other))
+            continue;
+        least = fmax(least, FAINT * s->came_with[r] * hci_companion_error(s->regression, model, other));
+    }
+    return least;
+}
+
 /* What a type must explain to come in; 0: anything. What no effect explains takes the place of those of the
  * iron. */
 static double least_of(const hci_search *s, const hci_candidates *model, size_t type)
 {
     const hci_effect_type *x = hci_candidate_type(type);
     const bool of_iron = x->propose_coenergy || x == &hci_empirical_type;
-    return of_iron && !hci_candidates_have(model, x) ? least_of_iron(s, model, x) : 0.0;
+    if (hci_candidates_have(model, x)) return 0.0;
+    return fmax(least_of_slopes(s, model, x), of_iron ? least_of_iron(s, model, x) : 0.0);
 }
 
 /* What a type promises alone. */

@@ -78,6 +78,19 @@ static void test_the_iron_beside_lags_and_delays(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.1, 1000.0, least(iron));
 }
 
+/* An acceleration is a slope of readings: what its error makes at the corners of a ramp is no delay and no
+ * back-EMF, but friction is none of it. */
+static void test_beside_an_acceleration(void)
+{
+    record_two(HCI_TORQUE_MEASURED);
+    const hci_verdict *delay = add("channel_delay", 900.0), *emf = add("back_emf", 600.0);
+    const hci_verdict *friction = add("friction", 1000.0), *inertia = add("rotor_inertia", 3e5);
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 1500.0, least(delay));
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 1500.0, least(emf));
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 40.0, least(friction));
+    TEST_ASSERT_TRUE(least(inertia) < 1.0);
+}
+
 /* A delay that is another one at each sample shows in the noise of the runs, and what it takes from high
  * orders is iron no more; a run that is a mean over four samples each has half of their noise. */
 static void test_the_iron_beside_jitter(void)
@@ -203,6 +216,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_what_is_faint_beside_much);
     RUN_TEST(test_the_iron_beside_lags_and_delays);
+    RUN_TEST(test_beside_an_acceleration);
     RUN_TEST(test_the_iron_beside_jitter);
     RUN_TEST(test_the_iron_beside_a_series);
     RUN_TEST(test_a_linear_part_beside_a_series);
