@@ -234,7 +234,8 @@ static hci_status model_replace(hci_search *s, hci_attribution *a, hci_note *not
     return status;
 }
 
-/* Where an angle or a sign is not what is meant by it, or the motor another one, the means alone tell. */
+/* Where an angle or a sign is not what is meant by it, the motor another one, or the torque read through what
+ * swings, the means alone tell. */
 static hci_status means_stay(hci_search *s, hci_attribution *a, hci_note *note)
 {
     hci_candidates *shown = &a->no_load.candidates;
@@ -244,10 +245,22 @@ static hci_status means_stay(hci_search *s, hci_attribution *a, hci_note *note)
     return status ? status : hci_search_renew(s, &a->model, note);
 }
 
+/* Whether a sensor that swings is in a model: all that is read goes through it, so that where something is
+ * not known under load it is not certain that it is the sensor. */
+static bool swings(const hci_candidates *model)
+{
+    for (size_t k = 0; k < model->count; ++k) {
+        const hci_candidate *x = &model->candidate[k];
+        for (size_t j = 0; x->in && x->type->resonance && j < x->count; ++j)
+            if (x->term[j].parameter == x->type->resonance[0]) return true;
+    }
+    return false;
+}
+
 hci_status hci_search_no_load_stays(hci_search *s, hci_attribution *a, hci_note *note)
 {
     const hci_candidates *shown = &a->no_load.candidates;
-    if (a->slip) return means_stay(s, a, note);
+    if (a->slip || swings(shown)) return means_stay(s, a, note);
     by_angle_leave(a);
     if (hci_candidates_types_in(shown) == 0) return HCI_OK;
     if (!has_more(&a->model.candidates, shown)) return model_replace(s, a, note);

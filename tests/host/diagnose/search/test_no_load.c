@@ -148,6 +148,19 @@ static void test_what_they_show_stays(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.04, 0.5 * sqrt(0.5 * 3.0 / 7.0), a.unexplained_Nm); /* of three runs */
 }
 
+/* Read through a sensor that swings only the means are certain: it may be what is not understood that swings.
+ */
+static void test_what_swings_is_not_certain(void)
+{
+    const hci_candidate sensor = candidate_of("torque_sensor", "natural_frequency", "damping", 0.0);
+    record_idle(0.0);
+    record_loads(3);
+    find();
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_candidates_add(&a.no_load.candidates, &sensor, &note));
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_no_load_stays(&search, &a, &note));
+    TEST_ASSERT_TRUE(has("friction") && !has("cogging") && !has("torque_sensor"));
+}
+
 /* Beside effects that are certain by other runs, what has left comes back. */
 static void test_what_has_left_comes_back(void)
 {
@@ -236,6 +249,7 @@ int main(void)
     RUN_TEST(test_what_is_no_noise_shows_nothing);
     RUN_TEST(test_as_many_values_as_runs_prove_nothing);
     RUN_TEST(test_what_they_show_stays);
+    RUN_TEST(test_what_swings_is_not_certain);
     RUN_TEST(test_what_has_left_comes_back);
     RUN_TEST(test_whatever_is_wrong_under_load);
     RUN_TEST(test_the_opposite_sign_under_load);
