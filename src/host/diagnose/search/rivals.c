@@ -5,7 +5,6 @@
 
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/search/candidate_models.h"
-#include "host/diagnose/search/seen.h"
 #include "host/diagnose/search/stability.h"
 
 #define EQUAL          6.0  /* models whose scores differ by less fit as well as each other */
@@ -47,13 +46,36 @@ static void rivalry_end(rivalry *r)
     hci_fitted_model_release(&r->without);
 }
 
+/* The types of a model and one more, a bit each; more NULL: those of the model. */
+static uint32_t types_of(const hci_candidates *model, const hci_effect_type *more)
+{
+    uint32_t types = 0;
+    for (size_t r = 0; r < hci_candidate_types(); ++r)
+        if (hci_candidates_have(model, hci_candidate_type(r)) || hci_candidate_type(r) == more)
+            types |= (uint32_t)1 << r;
+    return types;
+}
+
+static bool is_seen(const hci_search *s, uint32_t types)
+{
+    for (size_t k = 0; k < s->seen_count; ++k)
+        if (s->seen[k] == types) return true;
+    return false;
+}
+
+void hci_search_see(hci_search *s, const hci_candidates *model)
+{
+    const uint32_t types = types_of(model, NULL);
+    if (s->seen_count < HCI_MOST_SEEN && !is_seen(s, types)) s->seen[s->seen_count++] = types;
+}
+
 static bool is_promising(const rivalry *r, const hci_candidate_model *x)
 {
     const hci_effect_type *other = hci_candidate_type(x->a);
     const double gain = r->without.fit.score - r->model->fit.score;
     return other != r->type && !hci_candidates_have(&r->model->candidates, other) &&
            !(x->gain < PROMISED_SHARE * gain - PROMISED_LESS) &&
-           !(r->unseen && hci_seen_has(r->search, &r->without.candidates, other));
+           !(r->unseen && is_seen(r->search, types_of(&r->without.candidates, other)));
 }
 
 /* The next promising rival, fitted. with: out, its type in hci_candidate_type's count, or its end. On failure

@@ -4,7 +4,12 @@
 
 #include "host/diagnose/search/search.h"
 
-/* Puts one effect in place of another where that fits better. swapped: out. HCI_ERROR_MEMORY. */
+/* Takes note that these rounds have been at a model. Effects that fit as well as each other take turns
+ * otherwise, since each has its own noise to be judged by, and spend the work. */
+void hci_search_see(hci_search *search, const hci_candidates *model);
+
+/* Puts one effect in place of another where that fits better, unless these rounds have been at those types.
+ * swapped: out. HCI_ERROR_MEMORY. */
 hci_status hci_search_swap(hci_search *search, hci_fitted_model *model, bool *swapped, hci_note *note);
 
 /* Marks the effects that could stand in place of one that is in. HCI_ERROR_MEMORY. */

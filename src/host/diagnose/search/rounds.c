@@ -8,7 +8,6 @@
 #include "host/diagnose/search/few_values.h"
 #include "host/diagnose/search/forward.h"
 #include "host/diagnose/search/rivals.h"
-#include "host/diagnose/search/seen.h"
 #include "host/diagnose/search/sensor_zeros.h"
 #include "host/diagnose/search/settle.h"
 #include "host/diagnose/search/stability.h"
@@ -24,10 +23,10 @@ static hci_status round_run(hci_search *s, hci_fitted_model *model, bool *again,
     if (hci_candidates_types_in(&model->candidates) < MOST_EFFECTS)
         status = hci_search_forward(s, model, again, note);
     if (!status && *again) status = hci_search_prune(s, model, note);
-    hci_seen_add(s, &model->candidates);
+    hci_search_see(s, &model->candidates);
     for (bool dropped = true; dropped && !status && !hci_search_is_over(s);)
         status = hci_search_drop(s, model, &dropped, note);
-    hci_seen_add(s, &model->candidates);
+    hci_search_see(s, &model->candidates);
     if (!status && !*again && !hci_search_is_over(s)) {
         status = hci_search_swap(s, model, again, note);
         if (!status && *again) status = hci_search_prune(s, model, note);

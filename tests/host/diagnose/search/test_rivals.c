@@ -3,7 +3,6 @@
 
 #include "host/diagnose/search/attribute.h"
 #include "host/diagnose/search/candidate_models.h"
-#include "host/diagnose/search/seen.h"
 #include "support/searching.h"
 
 enum { SAMPLES = 300 }; /* of a run: a mechanical turn */
@@ -136,7 +135,7 @@ static void test_no_model_is_returned_to(void)
     const hci_candidate friction = candidate_of("friction", "coulomb", NULL, 0.0);
     record_friction(1, 0.0);
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_candidates_add(&left, &friction, &note));
-    hci_seen_add(&search, &left);
+    hci_search_see(&search, &left);
     model_add("torque_sensor", "offset", NULL, 0.0);
     model_fit();
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_swap(&search, &model, &swapped, &note));
