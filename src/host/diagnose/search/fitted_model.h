@@ -2,6 +2,8 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_SEARCH_FITTED_MODEL_H
 #define HCI_SRC_HOST_DIAGNOSE_SEARCH_FITTED_MODEL_H
 
+#include <string.h>
+
 #include "host/diagnose/candidates/candidates.h"
 #include "host/diagnose/fit/fit.h"
 
@@ -12,8 +14,25 @@ typedef struct {
 } hci_fitted_model;
 
 /* HCI_ERROR_MEMORY, and then `to` is empty. */
-hci_status hci_fitted_model_copy(const hci_fitted_model *from, hci_fitted_model *to, hci_note *note);
-void hci_fitted_model_replace(hci_fitted_model *old, hci_fitted_model *by); /* `by` is empty then */
-void hci_fitted_model_release(hci_fitted_model *model);
+static inline hci_status hci_fitted_model_copy(const hci_fitted_model *from, hci_fitted_model *to,
+                                               hci_note *note)
+{
+    to->fit = from->fit;
+    return hci_candidates_copy(&from->candidates, &to->candidates, note);
+}
+
+static inline void hci_fitted_model_release(hci_fitted_model *model)
+{
+    hci_candidates_release(&model->candidates);
+    memset(model, 0, sizeof *model);
+}
+
+/* `by` is empty then. */
+static inline void hci_fitted_model_replace(hci_fitted_model *old, hci_fitted_model *by)
+{
+    hci_fitted_model_release(old);
+    *old = *by;
+    memset(by, 0, sizeof *by);
+}
 
 #endif
