@@ -85,11 +85,12 @@ typedef struct {
 
 /* ---- the low pass ---- */
 
-/* i_q behind a low pass between whose samples it is straight. */
+/* i_q behind a low pass between whose samples it is straight; of no time constant: i_q. */
 static void filter(series *s, double time_constant_s)
 {
     double y = s->iq_A[0];
-    s->filtered_A[0] = y;
+    memcpy(s->filtered_A, s->iq_A, s->count * sizeof *s->iq_A);
+    if (!(time_constant_s > 0.0)) return;
     for (size_t k = 1; k < s->count; ++k) {
         const double step_s = s->time_s[k] - s->time_s[k - 1];
         const double before_A = s->iq_A[k - 1];
@@ -128,7 +129,7 @@ static double try_time(series *s, double time_constant_s)
     return left;
 }
 
-/* The low pass that leaves least: on a grid, then between its neighbours. */
+/* The low pass that leaves least: on a grid, then between its neighbours, or none. */
 static void fit(series *s)
 {
     const double ratio = pow(LONGEST / SHORTEST, 1.0 / STEPS);
@@ -143,6 +144,7 @@ static void fit(series *s)
         else
             low *= third;
     }
+    try_time(s, 0.0);
 }
 
 /* ---- a run ---- */
@@ -185,6 +187,22 @@ static double rms_of(const double *x, size_t n)
 static double rounding_of(const double *x, size_t n)
 {
     return hci_quantum(x, n, STEPS_OF_FILES * rms_of(x, n)) / sqrt(12.0);
+}
+
+#define OF_THREE 0.816 /* √(2/3): of the rounding of a phase in i_q, where all three were recorded … */
+#define OF_TWO   1.155 /* … √(4/3): and where the third was made of two */
+
+/* Of i_q, by its own steps or those of the phase currents that it was turned from. */
+static double rounding_of_current(const hci_run *run, const series *s)
+{
+    const bool of_phases = run->has_sum || run->computed_phase > 0;
+    double most_A = rounding_of(s->iq_A, s->count);
+    for (size_t phase = 0; phase < 3 && of_phases; ++phase) {
+        for (size_t k = 0; k < s->count; ++k)
+            s->filtered_A[k] = run->i_A[3 * k + phase];
+        most_A = fmax(most_A, (run->has_sum ? OF_THREE : OF_TWO) * rounding_of(s->filtered_A, s->count));
+    }
+    return most_A;
 }
 
 static bool is_near(double constant, double declared)
@@ -236,10 +254,11 @@ static void judge_idle(const hci_run *run, series *s, double declared, hci_torqu
     e->is_of_noise = is_near(s->constant, declared) && s->best < (1.0 - OF_NOISE) * all;
 }
 
-static void judge_rounding(series *s, double declared, hci_torque_estimate *e)
+static void judge_rounding(const hci_run *run, series *s, double declared, hci_torque_estimate *e)
 {
-    const double torque_Nm = rounding_of(s->torque_Nm, s->count), current_A = rounding_of(s->iq_A, s->count);
+    const double torque_Nm = rounding_of(s->torque_Nm, s->count), current_A = rounding_of_current(run, s);
     fit(s);
+    filter(s, s->time_constant_s);
     const double rounding_Nm = hypot(torque_Nm, s->constant * current_A);
     const double about = hci_mean(s->filtered_A, s->count);
     const double varies_Nm = s->constant * sqrt(hci_mean_square_about(s->filtered_A, s->count, about));
@@ -258,7 +277,7 @@ hci_status hci_torque_estimate_of(const hci_run *run, double torque_constant, hc
     if (!has_all(run)) return HCI_OK;
     const hci_status status = series_make(run, &s, note);
     if (status) return status;
-    if (s.step_s > 0.0) judge_rounding(&s, torque_constant, e);
+    if (s.step_s > 0.0) judge_rounding(run, &s, torque_constant, e);
     if (s.step_s > 0.0 && !e->within_rounding) {
         hci_torque_estimate idle = {0};
         judge_idle(run, &s, torque_constant, &idle);
@@ -278,7 +297,12 @@ static bool is_shown(const hci_torque_estimate *e)
 static hci_status leave(hci_run *run, const hci_torque_estimate *e, const hci_run_options *options,
                         hci_note *note)
 {
-    if (is_shown(e))
+    if (is_shown(e) && !(e->time_constant_s > 0.0))
+        hci_note_add(&run->remark,
+                     "the torque is %.4g N·m/A times i_q in every row%s: computed from the current and not "
+                     "measured, it is not used",
+                     e->constant_Nm_per_A, e->within_rounding ? "" : ", down to the noise of its sensors");
+    else if (is_shown(e))
         hci_note_add(&run->remark,
                      "the torque is %.4g N·m/A times i_q behind a filter of %.3g ms%s: estimated from the "
                      "current and not measured, it is not used",

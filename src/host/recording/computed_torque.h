@@ -19,12 +19,11 @@ bool hci_torque_is_of_current(const double *torque_Nm, const double *iq_A, size_
  * has noise. Fewer than 16 samples say nothing. O(samples). */
 bool hci_torque_is_typed(const hci_run *run);
 
-/* A torque that a drive has estimated from its own current behind a filter says nothing of the machine
-either.
- * How such a torque follows i_q behind a first-order low pass: */
+/* A torque that a drive has estimated from its own current, behind a filter or not, says nothing of the
+ * machine either. How such a torque follows i_q behind a first-order low pass, or none: */
 typedef struct {
     double constant_Nm_per_A; /* of i_q */
-    double time_constant_s;   /* of the low pass */
+    double time_constant_s;   /* of the low pass; 0: none, i_q of the same sample */
     bool within_rounding;     /* nothing is left but the rounding of both */
     bool is_of_noise; /* without a current it follows the noise of the current sensors: no shaft does */
     bool tells;       /* whether the run could show either */

@@ -62,7 +62,7 @@ static void run_write(const char *name, made_by by, double mean_A)
     fclose(file);
 }
 
-static void list_read(made_by by, const double mean_A[RUNS], double inertia_kgm2)
+static void list_of_runs_read(double inertia_kgm2)
 {
     const hci_runs_options options = {.run = {.pole_pairs = POLE_PAIRS,
                                               .inertia_kgm2 = inertia_kgm2,
@@ -70,16 +70,21 @@ static void list_read(made_by by, const double mean_A[RUNS], double inertia_kgm2
     FILE *list = fopen(files_path("list.csv"), "w");
     TEST_ASSERT_NOT_NULL(list);
     fprintf(list, "file,role\n");
-    for (int k = 0; k < RUNS; ++k) {
-        char name[24];
-        snprintf(name, sizeof name, "run%d.csv", k);
-        run_write(name, by, mean_A[k]);
-        fprintf(list, "%s,fit\n", name);
-    }
+    for (int k = 0; k < RUNS; ++k)
+        fprintf(list, "run%d.csv,fit\n", k);
     fclose(list);
     hci_runs_release(&runs);
     TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_runs_read(files_path("list.csv"), &options, &runs, &note),
                               note.text);
+}
+
+static const char *const NAMES[RUNS] = {"run0.csv", "run1.csv", "run2.csv"};
+
+static void list_read(made_by by, const double mean_A[RUNS], double inertia_kgm2)
+{
+    for (int k = 0; k < RUNS; ++k)
+        run_write(NAMES[k], by, mean_A[k]);
+    list_of_runs_read(inertia_kgm2);
 }
 
 static const double LOADED[RUNS] = {0.0, 8.0, -5.0}, IDLE[RUNS] = {0.0, 0.0, 0.0};
@@ -108,6 +113,58 @@ static void test_what_is_left_is_a_free_shaft(void)
     TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, runs.run[1].torque_source);
 }
 
+/* Three phase currents of a steady i_q that varies by the noise of their sensors, and a torque that is
+ * CONSTANT times it: all in steps, as loggers write them. MEASURED: with cogging of 5 mN·m. */
+static void run_of_noise_write(const char *name, made_by by, double mean_A, double step_A, double step_Nm)
+{
+    FILE *file = fopen(files_path(name), "w");
+    TEST_ASSERT_NOT_NULL(file);
+    fprintf(file, "time_s,theta_m_rad,ia_A,ib_A,ic_A,torque_Nm\n");
+    for (size_t k = 0; k < N; ++k) {
+        const double theta_m = 0.0063 * (double)k;
+        double i_A[3], q_A = 0.0;
+        for (int phase = 0; phase < 3; ++phase) {
+            const double angle = POLE_PAIRS * theta_m - phase * 2.0943951023931953;
+            i_A[phase] = mean_A * sin(angle) + 0.03 * ref_normal(&seed);
+            q_A += 2.0 / 3.0 * i_A[phase] * sin(angle);
+            i_A[phase] = step_A * floor(i_A[phase] / step_A + 0.5);
+        }
+        const double cogging_Nm = by == MEASURED ? 0.005 * sin(24.0 * theta_m) : 0.0;
+        fprintf(file, "%.4f,%.6f,%.6f,%.6f,%.6f,%.6f\n", 2e-3 * (double)k, theta_m, i_A[0], i_A[1], i_A[2],
+                step_Nm * floor((CONSTANT * q_A + cogging_Nm) / step_Nm + 0.5));
+    }
+    fclose(file);
+}
+
+static void noisy_list_read(made_by by, double step_A, double step_Nm)
+{
+    static const double MEAN_A[RUNS] = {5.0, 8.0, -3.0};
+    for (int k = 0; k < RUNS; ++k)
+        run_of_noise_write(NAMES[k], by, MEAN_A[k], step_A, step_Nm);
+    list_of_runs_read(NAN);
+}
+
+static void test_a_torque_that_follows_the_noise_of_a_steady_current_is_computed(void)
+{
+    static const double STEPS[][2] = {{1e-6, 1e-6}, {1e-3, 1e-4}, {1e-3, 1e-6}, {1e-6, 1e-3}, {1e-2, 2e-3}};
+    for (size_t j = 0; j < sizeof STEPS / sizeof *STEPS; ++j) {
+        noisy_list_read(ESTIMATED, STEPS[j][0], STEPS[j][1]);
+        for (size_t k = 0; k < RUNS; ++k)
+            TEST_ASSERT_NULL(runs.run[k].torque_Nm);
+        text_has("0.3 N·m/A times i_q in every row: computed from the current", runs.run[1].remark.text);
+    }
+}
+
+static void test_beside_a_small_cogging_it_is_not(void)
+{
+    static const double STEPS[][2] = {{1e-6, 1e-6}, {1e-3, 1e-4}, {1e-3, 1e-6}, {1e-6, 1e-3}};
+    for (size_t j = 0; j < sizeof STEPS / sizeof *STEPS; ++j) {
+        noisy_list_read(MEASURED, STEPS[j][0], STEPS[j][1]);
+        for (size_t k = 0; k < RUNS; ++k)
+            TEST_ASSERT_EQUAL(HCI_TORQUE_MEASURED, runs.run[k].torque_source);
+    }
+}
+
 static void test_a_measured_torque_stays(void)
 {
     static const made_by BY[] = {MEASURED, LAGS};
@@ -127,6 +184,8 @@ int main(void)
     RUN_TEST(test_an_estimate_behind_a_filter_is_not_used);
     RUN_TEST(test_without_a_current_it_follows_the_noise);
     RUN_TEST(test_what_is_left_is_a_free_shaft);
+    RUN_TEST(test_a_torque_that_follows_the_noise_of_a_steady_current_is_computed);
+    RUN_TEST(test_beside_a_small_cogging_it_is_not);
     RUN_TEST(test_a_measured_torque_stays);
     return UNITY_END();
 }

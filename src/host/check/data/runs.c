@@ -52,11 +52,50 @@ static bool parts_take(const check_samples *s, const check_run *file, check_data
     return good;
 }
 
+/* The samples as the recording of a drive: angle and currents as they stand. memory: [4 × count]. */
+static hci_run run_of(const check_samples *s, const check_data *data, const check_run *file, double *memory)
+{
+    const double pole_pairs = data->value[CHECK_pole_pairs];
+    double *theta_m_rad = memory + 3 * s->count;
+    hci_run run = {.count = s->count,
+                   .pole_pairs = (int)pole_pairs,
+                   .time_s = s->columns.value[HCI_RUN_TIME],
+                   .theta_m_rad = theta_m_rad,
+                   .i_A = memory,
+                   .torque_Nm = s->columns.value[HCI_RUN_TORQUE],
+                   .torque_source = HCI_TORQUE_MEASURED};
+    run.has_sum = s->columns.has[HCI_RUN_IA] && s->columns.has[HCI_RUN_IB] && s->columns.has[HCI_RUN_IC];
+    run.computed_phase = !run.has_sum;
+    for (size_t k = 0; k < s->count; ++k) {
+        theta_m_rad[k] = s->theta[k] / (file->is_electrical ? pole_pairs : 1.0);
+        hci_run_phases_at(&s->columns, HCI_RUN_IA, k, run.i_A + 3 * k);
+    }
+    return run;
+}
+
+static hci_status phases_tell(const check_samples *s, const check_data *data, const check_run *file,
+                              bool *computed, hci_note *note)
+{
+    hci_torque_estimate estimate;
+    const bool has = s->time && s->theta && s->current && s->torque && data->value[CHECK_pole_pairs] >= 1.0;
+    if (!has) return HCI_OK;
+    double *memory = hci_memory_new(4 * s->count, sizeof *memory);
+    if (!memory) return hci_note_memory(note, file->path, "its samples");
+    const hci_run run = run_of(s, data, file, memory);
+    const hci_status status = hci_torque_estimate_of(&run, 0.0, &estimate, note);
+    hci_memory_free(memory);
+    *computed = estimate.within_rounding;
+    return status;
+}
+
 /* A torque that follows i_q in time to the last digit is none that was measured. */
-static bool has_computed_torque(const check_samples *s)
+static hci_status computed_torque_find(const check_samples *s, const check_data *data, const check_run *file,
+                                       bool *computed, hci_note *note)
 {
     double constant;
-    return s->time && s->q && s->torque && hci_torque_is_of_current(s->torque, s->q, s->count, &constant);
+    *computed =
+        s->time && s->q && s->torque && hci_torque_is_of_current(s->torque, s->q, s->count, &constant);
+    return *computed ? HCI_OK : phases_tell(s, data, file, computed, note);
 }
 
 /* What the current does to the motion. A friction of one direction alone may be another machine that drives.
@@ -74,8 +113,10 @@ static hci_status run_take(const hci_csv *csv, check_data *data, check_run *file
                            hci_note *note)
 {
     check_samples s = {0};
+    bool computed = false;
     hci_status status = hci_check_samples_read(csv, data, file, &s, remark, note);
-    if (!status && has_computed_torque(&s)) {
+    if (!status) status = computed_torque_find(&s, data, file, &computed, note);
+    if (!status && computed) {
         hci_note_add(remark,
                      "the torque is i_q times a number: the drive has computed it, and it is not compared");
         s.torque = NULL;
