@@ -816,6 +816,76 @@ static void test_a_current_at_another_angle_is_no_other_zero(void)
     TEST_ASSERT_EQUAL(0, check.findings);
 }
 
+/* ---- recordings that contradict each other */
+
+/* Three recordings without voltages, each with its own mistake. */
+static void check_three(double i_q_A, mistake *const wrong[3])
+{
+    static const char *const NAME[] = {"first.csv", "second.csv", "third.csv"};
+    static const char *run[3];
+    write_machine(EMF_ALONE, "amplitude_Nm_per_A", 0.1, 0.0);
+    for (int j = 0; j < 3; ++j) {
+        run[j] = path[paths];
+        write_run(NAME[j], NO_VOLTAGES, 0.0, i_q_A, wrong[j]);
+    }
+    hci_check_files(files_root, run, 3, &(hci_run_options){0}, &check, &note);
+}
+
+static void expect_first(const char *slip, const char *words)
+{
+    TEST_ASSERT_EQUAL(HCI_CHECK_SLIPS, check.verdict);
+    TEST_ASSERT_EQUAL_MESSAGE(1, check.findings, "no other finding is of one convention for all");
+    TEST_ASSERT_EQUAL_STRING(slip, check.finding[0].slip);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(check.finding[0].words, words), check.finding[0].words);
+}
+
+MISTAKE(b_and_c_swapped, const double b = x->i[1]; x->i[1] = x->i[2]; x->i[2] = b)
+
+static void test_phases_swapped_in_one_recording(void)
+{
+    check_three(8.0, (mistake *const[]){none, b_and_c_swapped, none});
+    expect_first("phases_differ", "the currents of second.csv turn the other way than those of first.csv");
+    TEST_ASSERT_NOT_NULL(strstr(check.finding[0].should_be, "`ib=ic_A;ic=ib_A`"));
+    remove_files();
+    check_three(8.0, (mistake *const[]){b_and_c_swapped, b_and_c_swapped, none});
+    expect_first("phases_differ", "the currents of third.csv turn the other way than those of first.csv");
+    remove_files();
+    check_three(8.0, (mistake *const[]){b_and_c_swapped, b_and_c_swapped, b_and_c_swapped});
+    TEST_ASSERT_EQUAL_STRING("phases_swapped", check.finding[0].slip);
+}
+
+#define RIPPLE(theta) (0.1 * sin(3.0 * (theta)) + 0.1 * sin(7.0 * (theta) + 1.0) + 0.1 * sin(24.0 * (theta)))
+
+MISTAKE(with_ripple, x->torque_Nm += -0.05 + RIPPLE(x->theta))
+MISTAKE(begun_again, x->torque_Nm += -0.05 + RIPPLE(x->theta); x->theta -= 0.3)
+MISTAKE(a_little_late, x->torque_Nm += -0.05 + RIPPLE(x->theta); x->theta -= 0.02)
+MISTAKE(of_another_machine, x->torque_Nm += -0.05 + RIPPLE(-2.0 * x->theta))
+
+static void test_a_ripple_that_has_moved_tells_another_zero(void)
+{
+    check_three(0.0, (mistake *const[]){with_ripple, with_ripple, begun_again});
+    expect_first("angle_zero_moved", "the ripple in third.csv is that in first.csv, but at other places");
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(check.finding[0].words, "some 17 degrees of a turn"),
+                                 check.finding[0].words);
+    remove_files();
+    check_three(0.0, (mistake *const[]){with_ripple, a_little_late, of_another_machine});
+    TEST_ASSERT_EQUAL(0, check.findings);
+}
+
+/* Currents 69 degrees on may be those of a salient machine: the ripple beside them tells, or does not. */
+MISTAKE(ripple_where_it_was, x->torque_Nm += RIPPLE(x->theta - 0.3); x->theta -= 0.3)
+
+static void test_a_zero_that_is_less_than_a_quarter_on(void)
+{
+    check_three(8.0, (mistake *const[]){with_ripple, begun_again, begun_again});
+    expect_first("angle_zero_moved", "second.csv is some 69 degrees from that in first.csv");
+    TEST_ASSERT_NOT_NULL(strstr(check.finding[0].words, "and so is that in 1 other"));
+    remove_files();
+    check_three(8.0, (mistake *const[]){with_ripple, ripple_where_it_was, ripple_where_it_was});
+    for (size_t k = 0; k < check.findings; ++k)
+        TEST_ASSERT_TRUE(strcmp(check.finding[k].slip, "angle_zero_moved") != 0);
+}
+
 MISTAKE(dragged, x->torque_Nm += -0.05 + 0.1 * sin(24.0 * x->theta))
 MISTAKE(dragged_back, x->theta = -x->theta; x->speed = -x->speed; x->torque_Nm += 0.05)
 MISTAKE(driven, x->torque_Nm = -x->torque_Nm + 0.05 - 0.1 * sin(24.0 * x->theta))
@@ -1339,6 +1409,9 @@ int main(void)
     RUN_TEST(test_a_sensor_is_no_other_channel);
     RUN_TEST(test_a_zero_that_is_another_one);
     RUN_TEST(test_a_current_at_another_angle_is_no_other_zero);
+    RUN_TEST(test_phases_swapped_in_one_recording);
+    RUN_TEST(test_a_ripple_that_has_moved_tells_another_zero);
+    RUN_TEST(test_a_zero_that_is_less_than_a_quarter_on);
     RUN_TEST(test_friction_tells_the_sign_of_the_torque);
     RUN_TEST(test_mechanical_angle_under_electrical_name);
     RUN_TEST(test_slips_of_dq_currents);

@@ -88,6 +88,15 @@ typedef struct {
     check_vector wave;
 } check_cached_order;
 
+/* Orders of a mechanical turn of the ripple, and their least size (ripple_shift.h). */
+enum { CHECK_RIPPLE_ORDERS = 60 };
+
+typedef struct {
+    bool is_taken;
+    double least;
+    check_vector wave[CHECK_RIPPLE_ORDERS + 1];
+} check_turn_ripple;
+
 /* The statistics of one recording, or of one direction of it (run_parts.h), in the units of its columns after
  * conversion to SI. */
 typedef struct {
@@ -95,7 +104,8 @@ typedef struct {
     size_t count;                                   /* samples */
     check_cached_order cached[CHECK_CACHED_ORDERS]; /* of the torque; the oldest gives way */
     size_t cached_count;
-    double *theta; /* recorded angle; NULL: none */
+    check_turn_ripple ripple; /* taken the first time it is asked for */
+    double *theta;            /* recorded angle; NULL: none */
     double *torque; /* torque in N·m; where the shaft was held, −i_q in A: what balances the cogging torque */
     bool is_held;        /* torque 0 throughout, and i_d, i_q */
     bool turns_steadily; /* held by no one, but i_q turns the shaft steadily: it knows the orders of the
@@ -137,7 +147,8 @@ typedef struct {
     int line[CHECK_MOST_LINES], lines;       /* orders per turn with which the torque repeats */
     check_frame frame[CHECK_SCALES + 1];     /* the last: at the order that the recording itself has */
     check_place theta_cell, time_cell, speed_cell, current_cell, voltage_cell, torque_cell;
-    check_place channel_cell; /* of the odd channel */
+    check_place channel_cell;  /* of the odd channel */
+    check_place phase_cell[3]; /* of the phase currents, where has_abc */
 } check_run;
 
 /* Of a machine folder and its recordings. run: a recording has as many as it has parts. */
