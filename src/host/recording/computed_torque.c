@@ -25,17 +25,57 @@ static double largest_of(const double *x, size_t n)
 
 bool hci_torque_is_typed(const hci_run *run)
 {
-    double mean = 0.0, square = 0.0;
+    double mean = 0.0, square = 0.0, size = 0.0;
     const double share = 1.0 / (double)run->count;
     if (run->count < LEAST || run->theta_m_rad == NULL || !(fabs(run->torque_Nm[0]) > 0.0)) return false;
     for (size_t k = 1; k < run->count; ++k)
         if (run->torque_Nm[k] < run->torque_Nm[0] || run->torque_Nm[k] > run->torque_Nm[0]) return false;
     for (size_t k = 0; k < run->count; ++k) {
-        const double iq_A = hci_run_dq(run, run->pole_pairs, k).q;
-        mean += share * iq_A;
-        square += share * iq_A * iq_A;
+        const hci_dq i_A = hci_run_dq(run, run->pole_pairs, k);
+        mean += share * i_A.q;
+        square += share * i_A.q * i_A.q;
+        size += share * (i_A.d * i_A.d + i_A.q * i_A.q);
     }
-    return square - mean * mean > STILL * STILL * square;
+    return square - mean * mean > STILL * STILL * size;
+}
+
+#define SAME    1e-9 /* of a torque: one number */
+#define ANOTHER 0.1  /* of the larger current */
+
+static double mean_size_of(const hci_run *run)
+{
+    double sum_A = 0.0;
+    for (size_t k = 0; k < run->count; ++k)
+        sum_A += hci_run_dq(run, run->pole_pairs, k).q;
+    return fabs(sum_A) / (double)run->count;
+}
+
+static bool is_at_one_end(const hci_run *a, const hci_run *b)
+{
+    const double end_Nm = fabs(a->torque_typed_Nm), i_A = mean_size_of(a), j_A = mean_size_of(b);
+    return a->torque_is_typed && b->torque_is_typed && end_Nm > 0.0 &&
+           fabs(fabs(b->torque_typed_Nm) - end_Nm) <= SAME * end_Nm &&
+           fabs(i_A - j_A) > ANOTHER * fmax(i_A, j_A);
+}
+
+static const char *file_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+void hci_torques_at_one_end_tell(hci_run *runs, size_t count)
+{
+    for (size_t k = 0; k < count; ++k)
+        for (size_t j = 0; j < count && runs[k].torque_is_typed; ++j) {
+            if (j == k || !is_at_one_end(&runs[k], &runs[j])) continue;
+            runs[k].torque_is_clipped = true;
+            hci_note_add(&runs[k].remark,
+                         "%.60s has the torque %.6g N·m at another current: both are the end of the torque "
+                         "sensor or of its input, and the torque was clipped",
+                         file_of(runs[j].name), runs[j].torque_typed_Nm);
+            break;
+        }
 }
 
 bool hci_torque_is_of_current(const double *torque_Nm, const double *iq_A, size_t n, double *constant)

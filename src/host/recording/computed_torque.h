@@ -19,6 +19,10 @@ bool hci_torque_is_of_current(const double *torque_Nm, const double *iq_A, size_
  * has noise. Fewer than 16 samples say nothing. O(samples). */
 bool hci_torque_is_typed(const hci_run *run);
 
+/* Says of runs whose torque is one number that it is the end of a sensor, where another current has the same
+ * number, or the other sign of it. O(samples x runs of such a torque). */
+void hci_torques_at_one_end_tell(hci_run *runs, size_t count);
+
 /* A torque that a drive has estimated from its own current, behind a filter or not, says nothing of the
  * machine either. How such a torque follows i_q behind a first-order low pass, or none: */
 typedef struct {

@@ -513,6 +513,7 @@ static void drop_typed(reader *r)
                  "stands still, and not measured. It tells the mean alone and is not used",
                  run->torque_Nm[0]);
     run->torque_is_typed = true;
+    run->torque_typed_Nm = run->torque_Nm[0];
     hci_memory_free(run->torque_Nm);
     run->torque_Nm = NULL;
 }

@@ -886,6 +886,24 @@ static void test_a_zero_that_is_less_than_a_quarter_on(void)
         TEST_ASSERT_TRUE(strcmp(check.finding[k].slip, "angle_zero_moved") != 0);
 }
 
+/* A sensor that ends at 0.6 N·m has the mean of no torque: 1.2 N·m, and 0.6 N·m and a ripple. */
+#define NOISE(x) 0.05 * sin(1.234e5 * (x)->time_s)
+
+MISTAKE(at_its_end, x->i[0] += NOISE(x); x->torque_Nm = fmin(0.6, x->torque_Nm))
+MISTAKE(half_at_its_end, x->i[0] += NOISE(x); x->torque_Nm = fmin(0.6, x->torque_Nm - 0.1 + RIPPLE(x->theta)))
+
+static void test_the_mean_of_a_clipped_torque_is_none(void)
+{
+    static mistake *const CASES[] = {at_its_end, half_at_its_end};
+    static const char *const WORDS[] = {"or of a sensor at its end", "that is clipped is not compared"};
+    for (int k = 0; k < 2; ++k) {
+        check_three(k > 0 ? 4.0 : 8.0, (mistake *const[]){CASES[k], CASES[k], CASES[k]});
+        TEST_ASSERT_EQUAL_MESSAGE(0, check.findings, check.finding[0].words);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(check.remark[1].text, WORDS[k]), check.remark[1].text);
+        remove_files();
+    }
+}
+
 MISTAKE(dragged, x->torque_Nm += -0.05 + 0.1 * sin(24.0 * x->theta))
 MISTAKE(dragged_back, x->theta = -x->theta; x->speed = -x->speed; x->torque_Nm += 0.05)
 MISTAKE(driven, x->torque_Nm = -x->torque_Nm + 0.05 - 0.1 * sin(24.0 * x->theta))
@@ -1412,6 +1430,7 @@ int main(void)
     RUN_TEST(test_phases_swapped_in_one_recording);
     RUN_TEST(test_a_ripple_that_has_moved_tells_another_zero);
     RUN_TEST(test_a_zero_that_is_less_than_a_quarter_on);
+    RUN_TEST(test_the_mean_of_a_clipped_torque_is_none);
     RUN_TEST(test_friction_tells_the_sign_of_the_torque);
     RUN_TEST(test_mechanical_angle_under_electrical_name);
     RUN_TEST(test_slips_of_dq_currents);

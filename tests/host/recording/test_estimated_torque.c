@@ -16,7 +16,7 @@ enum { N = 3000, POLE_PAIRS = 4, RUNS = 3 };
 static const double FILTER_S = 2e-3, STEP_S = 7e-4, CONSTANT = 0.3;
 
 /* What makes the torque column. */
-typedef enum { ESTIMATED, MEASURED, LAGS } made_by;
+typedef enum { ESTIMATED, MEASURED, LAGS, CLIPPED } made_by;
 
 static hci_runs runs;
 static hci_note note;
@@ -130,8 +130,9 @@ static void run_of_noise_write(const char *name, made_by by, double mean_A, doub
             i_A[phase] = step_A * floor(i_A[phase] / step_A + 0.5);
         }
         const double cogging_Nm = by == MEASURED ? 0.005 * sin(24.0 * theta_m) : 0.0;
+        const double torque_Nm = step_Nm * floor((CONSTANT * q_A + cogging_Nm) / step_Nm + 0.5);
         fprintf(file, "%.4f,%.6f,%.6f,%.6f,%.6f,%.6f\n", 2e-3 * (double)k, theta_m, i_A[0], i_A[1], i_A[2],
-                step_Nm * floor((CONSTANT * q_A + cogging_Nm) / step_Nm + 0.5));
+                by == CLIPPED ? fmax(-0.5, fmin(0.5, torque_Nm)) : torque_Nm);
     }
     fclose(file);
 }
@@ -165,6 +166,15 @@ static void test_beside_a_small_cogging_it_is_not(void)
     }
 }
 
+static void test_one_number_at_two_currents_is_the_end_of_a_sensor(void)
+{
+    noisy_list_read(CLIPPED, 1e-3, 1e-4);
+    for (size_t k = 0; k < RUNS; ++k) {
+        TEST_ASSERT_TRUE(runs.run[k].torque_is_typed && runs.run[k].torque_is_clipped);
+        text_has("N·m at another current: both are the end", runs.run[k].remark.text);
+    }
+}
+
 static void test_a_measured_torque_stays(void)
 {
     static const made_by BY[] = {MEASURED, LAGS};
@@ -186,6 +196,7 @@ int main(void)
     RUN_TEST(test_what_is_left_is_a_free_shaft);
     RUN_TEST(test_a_torque_that_follows_the_noise_of_a_steady_current_is_computed);
     RUN_TEST(test_beside_a_small_cogging_it_is_not);
+    RUN_TEST(test_one_number_at_two_currents_is_the_end_of_a_sensor);
     RUN_TEST(test_a_measured_torque_stays);
     return UNITY_END();
 }

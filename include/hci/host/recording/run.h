@@ -66,9 +66,10 @@ typedef struct {
                        * overcomes friction, -1 where it works against the motion, 0 where that is not told */
     double swept_rad; /* mechanical, of all rows, where some of a slow turn were left out; else 0 */
     bool torque_is_typed; /* one number in every row beside a current that varies: no measurement, not used */
-    bool is_electrical;   /* an electrical angle was recorded; else its zero is supposed to be that of the
-                           * mechanical one */
-    bool zero_is_given;   /* by an offset that the user adds to the angle */
+    double torque_typed_Nm; /* that number; 0 where there is none */
+    bool is_electrical;     /* an electrical angle was recorded; else its zero is supposed to be that of the
+                             * mechanical one */
+    bool zero_is_given;     /* by an offset that the user adds to the angle */
     double zero_offset_rad; /* that offset, electrical */
     bool zero_is_unknown;   /* the angle is the integral of the speed, from 0 */
     bool voltage_is_dq;     /* v_V was v_d and v_q, turned by the recorded angle: says nothing of its zero */

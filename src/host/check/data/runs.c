@@ -73,8 +73,19 @@ static hci_run run_of(const check_samples *s, const check_data *data, const chec
     return run;
 }
 
+/* Why the torque is none to compare; NULL: it is one. */
+static const char *why_of(const hci_run *run, const hci_torque_estimate *estimate)
+{
+    if (estimate->within_rounding)
+        return "the torque is i_q times a number: the drive has computed it, and it is not compared";
+    return hci_torque_is_typed(run)
+               ? "the torque is one number in every row while the current varies: typed, "
+                 "or of a sensor at its end, and it is not compared"
+               : NULL;
+}
+
 static hci_status phases_tell(const check_samples *s, const check_data *data, const check_run *file,
-                              bool *computed, hci_note *note)
+                              const char **why, hci_note *note)
 {
     hci_torque_estimate estimate;
     const bool has = s->time && s->theta && s->current && s->torque && data->value[CHECK_pole_pairs] >= 1.0;
@@ -83,19 +94,23 @@ static hci_status phases_tell(const check_samples *s, const check_data *data, co
     if (!memory) return hci_note_memory(note, file->path, "its samples");
     const hci_run run = run_of(s, data, file, memory);
     const hci_status status = hci_torque_estimate_of(&run, 0.0, &estimate, note);
+    if (!status) *why = why_of(&run, &estimate);
     hci_memory_free(memory);
-    *computed = estimate.within_rounding;
     return status;
 }
 
-/* A torque that follows i_q in time to the last digit is none that was measured. */
-static hci_status computed_torque_find(const check_samples *s, const check_data *data, const check_run *file,
-                                       bool *computed, hci_note *note)
+/* A torque that follows i_q in time to the last digit is none that was measured, and of one that stands at
+ * the end of its sensor the mean is none. */
+static hci_status torque_doubt(const check_samples *s, const check_data *data, const check_run *file,
+                               const char **why, hci_note *note)
 {
     double constant;
-    *computed =
-        s->time && s->q && s->torque && hci_torque_is_of_current(s->torque, s->q, s->count, &constant);
-    return *computed ? HCI_OK : phases_tell(s, data, file, computed, note);
+    *why = NULL;
+    if (s->torque && s->columns.torque_is_clipped)
+        *why = "the mean of a torque that is clipped is not compared";
+    else if (s->time && s->q && s->torque && hci_torque_is_of_current(s->torque, s->q, s->count, &constant))
+        *why = "the torque is i_q times a number: the drive has computed it, and it is not compared";
+    return *why ? HCI_OK : phases_tell(s, data, file, why, note);
 }
 
 /* What the current does to the motion. A friction of one direction alone may be another machine that drives.
@@ -113,12 +128,11 @@ static hci_status run_take(const hci_csv *csv, check_data *data, check_run *file
                            hci_note *note)
 {
     check_samples s = {0};
-    bool computed = false;
+    const char *why = NULL;
     hci_status status = hci_check_samples_read(csv, data, file, &s, remark, note);
-    if (!status) status = computed_torque_find(&s, data, file, &computed, note);
-    if (!status && computed) {
-        hci_note_add(remark,
-                     "the torque is i_q times a number: the drive has computed it, and it is not compared");
+    if (!status) status = torque_doubt(&s, data, file, &why, note);
+    if (!status && why) {
+        hci_note_add(remark, "%s", why);
         s.torque = NULL;
     }
     if (!status) file->current_way = current_way(&s, file);
