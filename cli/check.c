@@ -303,6 +303,18 @@ static void show_rotation(const char *run, const hci_table_rotation *x)
                 run, shown_error(x));
 }
 
+/* A sine of the same torque, as a drive makes it without the table. */
+static void show_unseen(const char *run, const hci_table_rotation *x)
+{
+    cli_say(CLI_BAD "not found" CLI_PLAIN
+                    ": %s: the log does not hold the table's currents: of what the table has beside its "
+                    "fundamental %.2g ± %.2g is in them, where their fundamental is %.4g times the table's\n",
+            run, x->harmonics, x->harmonics_error, x->gain);
+    cli_say(
+        "  remedy       log the phase currents while the table is played, at a slow and steady speed; the "
+        "fundamental alone is that of any drive, with or without a table\n");
+}
+
 static void show_currents_left(const hci_table_rotation *x)
 {
     cli_say("  difference   %.1f %% of the current as it is, %.1f %% where the table is turned so; the "
@@ -317,6 +329,10 @@ static void show_table(const char *run, double pole_pairs, const hci_table_rotat
 {
     if (!x->is_found) {
         show_no_table(run, pole_pairs, x);
+        return;
+    }
+    if (!x->is_seen) {
+        show_unseen(run, x);
         return;
     }
     show_rotation(run, x);
@@ -363,7 +379,7 @@ static int check_table(const cli_arguments *a, const char *table_path, bool json
     if (!status) status = compare_table(a, table_path, options, json, &x, &note);
     hci_machine_release(&machine);
     if (status) return cli_fail(status, &note);
-    return x.is_rotated || !x.is_found ? 1 : 0;
+    return x.is_rotated || !x.is_found || !x.is_seen ? 1 : 0;
 }
 
 /* ---- the command ---- */

@@ -308,6 +308,65 @@ static hci_status fit_in_frame(comparison c, double phases_left, hci_table_rotat
     return HCI_OK;
 }
 
+/* ---- what the table has beside its fundamental */
+
+/* Of the table's rms: less is none. Errors by which the harmonics stand out, and share of the gain. */
+static const double NO_HARMONICS = 1e-3, STANDS_OUT = 5.0, OF_GAIN = 0.3;
+
+enum { FUNDAMENTAL, QUADRATURE, HARMONICS, MEASURED, PARTS };
+
+/* The fundamental of the table where it is read, the same a quarter on, the rest, and what was measured. */
+static void parts_at(const comparison *c, const hci_table_rotation *x, size_t sample, double part[PARTS][3])
+{
+    const double theta = theta_rad(c, sample, x->backwards) + x->rotation_rad;
+    memset(part, 0, PARTS * sizeof *part);
+    for (size_t k = 0; k < c->table->count; ++k) {
+        double wave[3], on[3];
+        const bool is_fundamental = fabs(c->table->wave[k].order - 1.0) < 10.0 * HCI_ORDER_TOLERANCE;
+        hci_waves_at(&c->table->wave[k], 1, theta, wave);
+        hci_waves_at(&c->table->wave[k], 1, theta + 0.5 * HCI_PI, on);
+        for (int s = 0; s < 3; ++s) {
+            part[is_fundamental ? FUNDAMENTAL : HARMONICS][s] += wave[s];
+            part[QUADRATURE][s] += is_fundamental ? on[s] : 0.0;
+        }
+    }
+    memcpy(part[MEASURED], c->run->i_A + 3 * sample, 3 * sizeof(double));
+}
+
+/* Takes out of the products of all parts what the first of them explains. */
+static void take_out(double gram[PARTS][PARTS], int first)
+{
+    const double pivot = gram[first][first];
+    double row[PARTS];
+    memcpy(row, gram[first], sizeof row);
+    for (int a = 0; a < PARTS && pivot > 0.0; ++a)
+        for (int b = 0; b < PARTS; ++b)
+            gram[a][b] -= row[a] * row[b] / pivot;
+}
+
+static void harmonics_find(const comparison *c, hci_table_rotation *x)
+{
+    double gram[PARTS][PARTS] = {{0.0}}, table = 0.0;
+    for (size_t k = 0; k < c->run->count; ++k) {
+        double part[PARTS][3];
+        parts_at(c, x, k, part);
+        for (int s = 0; s < 3; ++s)
+            for (int a = 0; a < PARTS; ++a)
+                for (int b = 0; b < PARTS; ++b)
+                    gram[a][b] += part[a][s] * part[b][s];
+    }
+    table = gram[FUNDAMENTAL][FUNDAMENTAL] + gram[HARMONICS][HARMONICS];
+    x->is_seen = !(gram[HARMONICS][HARMONICS] > NO_HARMONICS * NO_HARMONICS * table);
+    if (x->is_seen) return;
+    take_out(gram, FUNDAMENTAL);
+    take_out(gram, QUADRATURE);
+    const double own = gram[HARMONICS][HARMONICS];
+    x->harmonics = own > 0.0 ? gram[HARMONICS][MEASURED] / own : 0.0;
+    const double left = fmax(0.0, gram[MEASURED][MEASURED] - x->harmonics * gram[HARMONICS][MEASURED]);
+    x->harmonics_error = own > 0.0 ? sqrt(left / (2.0 * (double)c->run->count) / own) : HUGE_VAL;
+    x->is_seen = x->harmonics > STANDS_OUT * x->harmonics_error && x->harmonics > OF_GAIN * x->gain;
+}
+
 hci_status hci_table_rotation_of(const hci_currents *table, const hci_run *run, int pole_pairs,
                                  hci_table_rotation *x, hci_note *note)
 {
@@ -323,6 +382,10 @@ hci_status hci_table_rotation_of(const hci_currents *table, const hci_run *run, 
     if (!x->backwards && x->left > NOTHING) status = fit_in_frame(c, x->left, &of_index, note);
     if (!status && of_index.is_rotated && of_index.left < (is_dq ? LESSENED : CLEARLY) * x->left)
         *x = of_index;
+    if (!status && x->of_index)
+        x->is_seen = true; /* what is rotated there is the harmonics */
+    else if (!status)
+        harmonics_find(&c, x);
     hci_memory_free(c.grid);
     return status;
 }

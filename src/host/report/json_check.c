@@ -105,6 +105,9 @@ char *hci_table_rotation_json(const hci_table_rotation *x)
     hci_summary_begin(&json, "check");
     hci_json_bool(&json, "found", x->is_found);
     hci_json_bool(&json, "rotated", x->is_rotated);
+    hci_json_bool(&json, "harmonics_seen", x->is_seen);
+    hci_json_number(&json, "harmonics", x->harmonics);
+    hci_json_number(&json, "harmonics_error", x->harmonics_error);
     hci_json_number(&json, "rotation_e_rad", x->rotation_rad);
     hci_json_number(&json, "error_e_rad", x->error_rad);
     hci_json_number(&json, "step_e_rad", x->step_rad);

@@ -168,6 +168,23 @@ static void test_which_of_the_turns(void)
 }
 
 /* Of a table that is read with other pole pairs nothing is left at any rotation; what was played is named. */
+/* The fundamental alone is that of any drive: nothing says that the table is read. */
+static void test_a_sine_is_no_table(void)
+{
+    play(0.0, 0.5, 0.1, 1, 9);
+    TEST_ASSERT_TRUE(compare().is_seen);
+    TEST_ASSERT_DOUBLE_WITHIN(0.05, 0.5, compare().harmonics);
+    play(0.4, 0.5, 0.1, 1, 9);
+    TEST_ASSERT_TRUE(compare().is_seen);
+    table.count = 1; /* plays the first wave */
+    play(0.0, 0.5, 0.1, 1, 9);
+    TEST_ASSERT_TRUE(compare().is_seen); /* of a table that has no other */
+    table.count = 3;
+    const hci_table_rotation x = compare();
+    TEST_ASSERT_TRUE(x.is_found && !x.is_rotated && !x.is_seen);
+    TEST_ASSERT_DOUBLE_WITHIN(5.0 * x.harmonics_error, 0.0, x.harmonics);
+}
+
 static void test_other_pole_pairs(void)
 {
     static const size_t pairs[] = {1, 5, 14, 21};
@@ -241,6 +258,7 @@ int main(void)
     RUN_TEST(test_a_table_of_nothing_is_not_found);
     RUN_TEST(test_what_mends_nothing_is_no_rotation);
     RUN_TEST(test_which_of_the_turns);
+    RUN_TEST(test_a_sine_is_no_table);
     RUN_TEST(test_other_pole_pairs);
     RUN_TEST(test_noise_is_no_table);
     RUN_TEST(test_a_coarse_angle);

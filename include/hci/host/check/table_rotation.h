@@ -22,7 +22,11 @@ typedef struct {
     bool is_found; /* the table is in the recording: at its best it leaves less than 95 % of the rms */
     bool is_rotated; /* by more than three errors, half a step and 0.01 rad, which leaves a twentieth less of
                       * the difference, or backwards */
-    double step_rad; /* electrical, of the log's angle where it stands still between samples; else 0 */
+    double harmonics, harmonics_error; /* what the table has beside its fundamental, in the currents: 1 is as
+                                        * in the table; and its standard error. 0 where the table has none */
+    bool is_seen; /* the harmonics stand out of the error, with the share of the torque; or the table has none
+                   */
+    double step_rad;        /* electrical, of the log's angle where it stands still between samples; else 0 */
     size_t pole_pairs_seen; /* where it is not found: pole pairs with which it is; 0: none up to 64 */
     double left_as_is;      /* rms of what differs by rms of the currents, at no rotation */
     double left;            /* and at this one */
