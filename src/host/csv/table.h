@@ -18,6 +18,9 @@ typedef struct {
     size_t united_record;       /* the first of them */
 } hci_csv_hole;
 
+/* As what a column is given that is not to be read. */
+#define HCI_CSV_LEFT_OUT "none"
+
 /* A column that is what the user says. */
 typedef struct {
     char name[32]; /* canonical, with its unit or without */

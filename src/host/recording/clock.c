@@ -3,6 +3,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "host/base/memory.h"
+#include "host/base/quote.h"
+#include "host/csv/column.h"
+#include "host/csv/name_words.h"
+#include "host/csv/table.h"
 #include "host/numeric/statistics.h"
 
 #define GAP         20.0 /* steps so many times the usual one are gaps */
@@ -307,4 +312,127 @@ void hci_clock_smooth(hci_stamps stamps, double *work, hci_note *remark)
     if (!ascends(work, stamps.n)) return;
     memcpy(stamps.time_s, work, stamps.n * sizeof *work);
     hci_note_add(remark, "the angle is smooth over the rows and not over the time: the time is smoothed");
+}
+
+/* ---- two clocks in one table ---- */
+
+#define APART 0.05 /* of the record */
+#define HELD  1.5  /* steps of the coarser clock, which may be held from row to row */
+
+enum { MOST_CLOCKS = 8, LEAST_BOTH = 16 };
+
+/* Columns of time of a table, from left to right. */
+typedef struct {
+    const hci_csv *csv;
+    size_t column[MOST_CLOCKS + 1], count; /* behind the last one: the number of columns */
+} clocks;
+
+/* As what a column is given; NULL: as nothing. */
+static const char *given_as(const hci_csv *csv, size_t column)
+{
+    for (size_t k = 0; k < csv->given_count; ++k)
+        if (csv->given[k].column == column) return csv->given[k].name;
+    return NULL;
+}
+
+static bool is_time(const hci_csv *csv, size_t column)
+{
+    const hci_unit *unit = hci_column_unit(csv, column);
+    const char *given = given_as(csv, column);
+    if (given != NULL) return strncmp(given, "time", 4) == 0;
+    return unit != NULL && unit->dimension == hci_unit_find("s", 1)->dimension;
+}
+
+static clocks clocks_of(const hci_csv *csv)
+{
+    clocks x = {csv, {0}, 0};
+    for (size_t column = 0; column < hci_csv_columns(csv) && x.count < MOST_CLOCKS; ++column)
+        if (is_time(csv, column)) x.column[x.count++] = column;
+    x.column[x.count] = hci_csv_columns(csv);
+    return x;
+}
+
+/* The first column that is known to the right of a clock, before the next one; that of the clock: none. */
+static size_t first_of(const clocks *x, size_t k)
+{
+    for (size_t column = x->column[k] + 1; column < x->column[k + 1]; ++column) {
+        const char *given = given_as(x->csv, column);
+        if (given != NULL ? strcmp(given, HCI_CSV_LEFT_OUT) != 0
+                          : hci_column_is_known(hci_csv_name(x->csv, column)))
+            return column;
+    }
+    return x->column[k];
+}
+
+/* The numbers of a column in seconds, NAN where there is none. */
+static hci_status read_seconds(hci_csv *csv, size_t column, double *values, hci_note *note)
+{
+    hci_csv_hole hole = {0};
+    hci_status status = hci_csv_give(csv, "time", column, note);
+    if (status) return status;
+    status = hci_csv_numbers_or_nan(csv, "time_s", values, &hole, note);
+    --csv->given_count;
+    return status;
+}
+
+/* How far two clocks are apart at most, from the first row that has both, less what is held. at: out, that
+ * row. */
+static double apart(const double *a_s, const double *b_s, size_t n, size_t *at)
+{
+    size_t first = n, last = n, both = 0;
+    double most = 0.0, step_s = 0.0;
+    for (size_t k = 0; k < n; ++k) {
+        if (!isfinite(a_s[k]) || !isfinite(b_s[k])) continue;
+        if (first == n) first = k;
+        if (last < n && (a_s[k] < a_s[last] || b_s[k] < b_s[last]))
+            return 0.0; /* not a clock, or begun again */
+        if (last < n) step_s = fmax(step_s, fmax(a_s[k] - a_s[last], b_s[k] - b_s[last]));
+        last = k;
+        ++both;
+        const double off = fabs((a_s[k] - a_s[first]) - (b_s[k] - b_s[first]));
+        if (off > most) most = off, *at = k;
+    }
+    if (both < LEAST_BOTH) return 0.0;
+    const double span_s = fmin(a_s[last] - a_s[first], b_s[last] - b_s[first]);
+    return span_s > 0.0 && most > APART * span_s + HELD * step_s ? most : 0.0;
+}
+
+static hci_status tell_clocks(const clocks *x, size_t k, size_t member, size_t at, const double *time_s[2],
+                              hci_note *note)
+{
+    char path[HCI_QUOTE_PATH_SIZE], first[HCI_QUOTE_SIZE], second[HCI_QUOTE_SIZE], of[HCI_QUOTE_SIZE];
+    const hci_csv *csv = x->csv;
+    return hci_note_set(note, HCI_ERROR_INPUT,
+                        "%s:%zu: column %zu %s: found a second time, %.6g s where %s is %.6g s, so that %s "
+                        "and what else stands "
+                        "to its right is of other instants than the rest of its row; expected one clock for "
+                        "all columns: export "
+                        "them with one, or leave what is of the other clock out, by --column \"none=%.60s\" "
+                        "and so of each of "
+                        "them and of this time",
+                        hci_quote_path(hci_csv_path(csv), path), hci_csv_line(csv, at), x->column[k] + 1,
+                        hci_quote(hci_csv_name(csv, x->column[k]), second), time_s[1][at],
+                        hci_quote(hci_csv_name(csv, x->column[0]), first), time_s[0][at],
+                        hci_quote(hci_csv_name(csv, member), of), hci_csv_name(csv, member));
+}
+
+hci_status hci_clocks_agree(hci_csv *csv, hci_note *note)
+{
+    const clocks x = clocks_of(csv);
+    const size_t n = hci_csv_rows(csv);
+    hci_note unused = {{0}};
+    hci_status status = HCI_OK;
+    if (x.count < 2 || n == 0 || first_of(&x, 0) == x.column[0]) return HCI_OK;
+    double *time_s = hci_memory_new(2 * n, sizeof *time_s);
+    if (time_s == NULL) return hci_note_memory(note, hci_csv_path(csv), "its times");
+    const double *both[2] = {time_s, time_s + n};
+    bool is_told = !read_seconds(csv, x.column[0], time_s, &unused);
+    for (size_t k = 1; k < x.count && is_told && !status; ++k) {
+        size_t at = 0;
+        const size_t member = first_of(&x, k);
+        if (member == x.column[k] || read_seconds(csv, x.column[k], time_s + n, &unused)) continue;
+        if (apart(both[0], both[1], n, &at) > 0.0) status = tell_clocks(&x, k, member, at, both, note);
+    }
+    hci_memory_free(time_s);
+    return status;
 }

@@ -7,6 +7,7 @@
 #include <stddef.h>
 
 #include "hci/host/base/note.h"
+#include "hci/host/csv/csv.h"
 
 /* Stamps of n samples. */
 typedef struct {
@@ -41,5 +42,11 @@ hci_clock_kind hci_clock_judge(hci_stamps stamps, const double *theta_m_rad, int
 
 /* Stamps that jitter: a uniform clock where they are one rounded, else means of 41 neighbours. work: n. */
 void hci_clock_smooth(hci_stamps stamps, double *work, hci_note *remark);
+
+/* Whether all columns of a table are of one clock: HCI_ERROR_INPUT where a second column of time runs
+ * otherwise than the first by more than a twentieth of the record and what it may be held for, and columns
+ * that are known stand to the right of both: those of one row are then of different instants.
+ * HCI_ERROR_MEMORY. Columns that are left out (`none`) do not count. O(rows). */
+hci_status hci_clocks_agree(hci_csv *csv, hci_note *note);
 
 #endif

@@ -47,6 +47,12 @@ static bool is_quantity(const char *name)
     return quantity_of(name) != HCI_RUN_COLUMN_COUNT && strlen(name) < 32;
 }
 
+/* Of a column that is not to be read. */
+static bool is_left_out(const char *name)
+{
+    return strcmp(name, HCI_CSV_LEFT_OUT) == 0;
+}
+
 /* Names in the units that logs have, as people would write them. */
 static const char *const USUAL[] = {
     "time_ms",    "time_us",     "theta_m_deg",        "theta_m_turn", "theta_e_deg", "theta_e_turn",
@@ -255,7 +261,8 @@ static hci_status check_one_meaning(const hci_column_names *names, const hci_col
     char quoted[HCI_QUOTE_SIZE];
     for (size_t k = 0; k < names->count; ++k) {
         const hci_column_name *before = &names->item[k];
-        if (is_said_otherwise(before, item))
+        const bool is_left = is_left_out(before->name) != is_left_out(item->name);
+        if (is_said_otherwise(before, item) || (is_left && is_same_column(before, item)))
             return hci_note_set(note, bad,
                                 "%.300s: found it beside `%.80s=%.200s`, expected one of the two; leave the "
                                 "other out",
@@ -273,7 +280,8 @@ static hci_status add(hci_column_names *names, hci_column_name item, hci_status 
 {
     hci_status status = HCI_OK;
     const bool is_whole = item.name != NULL && item.column != NULL && item.from != NULL;
-    if (is_whole && !check_offset(&item, bad, &status, note) && !is_quantity(item.name))
+    if (is_whole && !check_offset(&item, bad, &status, note) && !is_quantity(item.name) &&
+        !is_left_out(item.name))
         status = unknown_name(&item, bad, note);
     if (is_whole && !status) status = check_one_meaning(names, &item, bad, note);
     if (!status) return append(names, item, note);
@@ -539,7 +547,7 @@ static hci_column_name without_sign(const hci_column_name *item)
  * languages. */
 static bool is_named_otherwise(const hci_column_names *names, const hci_column_name *item, const hci_csv *csv)
 {
-    for (size_t k = 0; k < names->count; ++k) {
+    for (size_t k = 0; k < names->count && !is_left_out(item->name); ++k) {
         const hci_column_name *other = &names->item[k];
         size_t column;
         if (other == item || quantity_of(other->name) != quantity_of(item->name)) continue;
@@ -598,6 +606,7 @@ static hci_status check_given_once(const hci_csv *csv, size_t first, const hci_c
 {
     char path[HCI_QUOTE_PATH_SIZE], one[HCI_QUOTE_SIZE], other[HCI_QUOTE_SIZE];
     const hci_csv_given *last = csv->given_count > first ? &csv->given[csv->given_count - 1] : NULL;
+    if (last != NULL && is_left_out(last->name)) return HCI_OK;
     for (size_t k = first; last != NULL && k + 1 < csv->given_count; ++k)
         if (quantity_of(csv->given[k].name) == quantity_of(last->name) &&
             csv->given[k].column != last->column)

@@ -60,6 +60,66 @@ static void test_columns_without_a_name(void)
     text_has("columns not used: `spare`", run.remark.text);
 }
 
+/* A column that is left out is as if it were not there: what it has no numbers for is no hole. */
+static void test_a_column_that_is_left_out(void)
+{
+    files_write(path,
+                "theta_e_deg,iq_A,torque_Nm,speed_rpm,n\n0,0,1,10,1\n90,1,2,,1\n180,2,3,,1\n270,2,3,,1\n");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_run());
+    add("none=speed_rpm");
+    add("none=n");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    TEST_ASSERT_EQUAL(4, run.count);
+    text_has("columns not used: `speed_rpm`, `n`", run.remark.text);
+    TEST_ASSERT_EQUAL(HCI_ERROR_ARGUMENT, hci_column_names_add(&names, "iq=n", &note));
+    hci_column_names_release(&names);
+    add("none=nowhere");
+    add("none=n");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_run());
+    text_has("found no column `nowhere`", note.text);
+}
+
+/* Two times beside each other, the second at `rate` of the first, `later` and held for `held` rows. */
+static void two_clocks_write(const char *header, double rate, double later, int held)
+{
+    char text[6000];
+    size_t used = (size_t)snprintf(text, sizeof text, "%s\n", header);
+    for (int k = 0; k < 100; ++k)
+        used += (size_t)snprintf(text + used, sizeof text - used, "%.4f,%d,0,%.4f,%d.5\n", 0.01 * k, 3 * k,
+                                 later + rate * 0.01 * (k - k % held), 10 + k % 7);
+    files_write(path, text);
+}
+
+#define TWO_CLOCKS "t [s],theta_e_deg,iq_A,t2 [s],torque_Nm"
+
+static void test_two_clocks_in_one_table(void)
+{
+    static const struct {
+        const char *header;
+        double rate, later;
+        int held;
+        hci_status status;
+    } CASES[] = {
+        {TWO_CLOCKS, 1.0, 0.0, 1, HCI_OK},
+        {TWO_CLOCKS, 1.01, 1e3, 1, HCI_OK}, /* another zero, and a drift */
+        {TWO_CLOCKS, 1.0, 0.0, 10, HCI_OK}, /* held */
+        {"t [s],theta_e_deg,iq_A,t2 [ms],torque_Nm", 1e3, 0.0, 1, HCI_OK},
+        {"t [s],theta_e_deg,iq_A,t2 [s],pump", 1.6, 0.0, 1, HCI_OK}, /* of nothing that is read */
+        {TWO_CLOCKS, 1.6, 0.0, 1, HCI_ERROR_INPUT},
+        {TWO_CLOCKS, 10.0, 5.0, 1, HCI_ERROR_INPUT},
+        {"Zeit 1 [s],theta_e_deg,iq_A,Zeit 2 [s],torque_Nm", 0.6, 0.0, 1, HCI_ERROR_INPUT},
+    };
+    for (size_t k = 0; k < sizeof CASES / sizeof *CASES; ++k) {
+        two_clocks_write(CASES[k].header, CASES[k].rate, CASES[k].later, CASES[k].held);
+        TEST_ASSERT_EQUAL_MESSAGE(CASES[k].status, read_run(), CASES[k].header);
+        if (CASES[k].status) text_has("is of other instants than the rest of its row", note.text);
+    }
+    add("none=Zeit 2 [s]");
+    add("none=torque_Nm");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    TEST_ASSERT_NULL(run.torque_Nm);
+}
+
 /* Each file that has a column counts once for it, and for none of the others. */
 static void test_files_that_have_a_column(void)
 {
@@ -422,6 +482,8 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_columns_without_a_name);
+    RUN_TEST(test_a_column_that_is_left_out);
+    RUN_TEST(test_two_clocks_in_one_table);
     RUN_TEST(test_files_that_have_a_column);
     RUN_TEST(test_counts_of_an_encoder);
     RUN_TEST(test_the_opposite_sign);
