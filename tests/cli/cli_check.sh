@@ -141,7 +141,7 @@ says 'check: found 0 words, expected 1 or more: MACHINE'
 run 3 check "$work/none"
 says 'none: No such file'
 run 3 check data/machine_a data/machine_a/cogging.csv
-says 'cogging.csv:.*no angle of the rotor.*theta_e'
+says 'cogging.csv:.*found a table of orders'
 printf 'name,value,unit\npole_pairs,2.5,1\n' >"$work/typed/machine.csv"
 run 3 check "$work/typed"
 says 'machine.csv:2: `pole_pairs`: found 2.5'

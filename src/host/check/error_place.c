@@ -269,6 +269,71 @@ static void say_gear(const check_error *error, const check_data *data, hci_check
                  ", or of a shaft that a gear turns %.4g times as fast", p);
 }
 
+/* Gears that nobody builds, and units make: the unit that the angle then has. */
+static const char *unit_of_gear(double turns)
+{
+    static const struct {
+        double turns;
+        const char *unit;
+    } UNITS[] = {{180.0 / HCI_PI, "rad"}, {360.0, "turn"}, {2.0 * HCI_PI, "turn"}};
+    for (size_t k = 0; k < sizeof UNITS / sizeof *UNITS; ++k)
+        if (fabs(turns / UNITS[k].turns - 1.0) < 0.003) return UNITS[k].unit;
+    return NULL;
+}
+
+/* An angle in rad under a name of degrees: "… is in rad, or of a shaft behind a gear of 57.3". */
+static void say_unit_of_gear(const check_data *data, const check_place *place, hci_check_finding *finding)
+{
+    const double turns = gear_of(data);
+    const char *unit = unit_of_gear(turns);
+    if (!unit) return;
+    snprintf(
+        finding->words, sizeof finding->words,
+        "the angle of the recordings is in %s, whatever the name of its column says, or of a shaft behind a "
+        "gear of %.3g",
+        unit, turns);
+    snprintf(finding->should_be, sizeof finding->should_be, "in %s: --column 'theta_m_%s=%.60s'", unit, unit,
+             place->column);
+}
+
+/* Which of three phases each column is to be read as, of swapped or rotated ones: "bca" is ia=ib, ib=ic, ia.
+ * NULL: another error. */
+static const char *order_of_phases(const check_error *error)
+{
+    if (error->aspect == CHECK_OF_PHASES && error->where != CHECK_AT_PROBES)
+        return error->plus > CHECK_SWAPPED_AB ? "cba" : error->plus > CHECK_SWAPPED_BC ? "bac" : "acb";
+    if (is_rotated(error)) return error->plus > 0.0 ? "bca" : "cab";
+    return NULL;
+}
+
+/* The phase currents of the first recording that has three columns; NULL: none. */
+static const check_place *phases_of(const check_data *data)
+{
+    for (size_t k = 0; k < data->runs; ++k)
+        if (data->run[k].phase_cell[0].path && data->run[k].phase_cell[1].path &&
+            data->run[k].phase_cell[2].path)
+            return data->run[k].phase_cell;
+    return NULL;
+}
+
+/* Behind the words: "--column 'ib=ic_A' --column 'ic=ib_A'". */
+static void say_phases(const check_error *error, const check_data *data, hci_check_finding *finding)
+{
+    const char *order = order_of_phases(error);
+    const check_place *phase = phases_of(data);
+    char *text = finding->should_be;
+    const size_t size = sizeof finding->should_be;
+    size_t used = strlen(text);
+    if (!order || !phase) return;
+    for (int k = 0; k < 3; ++k) {
+        const int from = order[k] - 'a';
+        if (from == k || used >= size) continue;
+        used += (size_t)snprintf(text + used, size - used, "%s --column 'i%c=%.16s'",
+                                 used == strlen(finding->should_be) && !strstr(text, "--") ? ":" : "",
+                                 "abc"[k], phase[from].column);
+    }
+}
+
 /* What a current is called that a recording has: i_q or of phase a. */
 static const char *current_of(const check_data *data, const check_place *place)
 {
@@ -313,6 +378,9 @@ static void say_column(const check_error *error, const check_data *data, const c
     if (error->aspect == CHECK_OF_CURRENT_SIGN)
         snprintf(text, size, "with the opposite sign: --column '%s=-%.60s', and so of each current",
                  current_of(data, place), place->column);
+    if (strcmp(error->name, "current_rms") == 0 || strcmp(error->name, "current_dq_rms") == 0)
+        snprintf(text, size, "%.40s: --column '%s_Arms=%.40s', and so of each", error->should_be,
+                 current_of(data, place), place->column);
     if (error->where == CHECK_AT_TORQUE && error->times < 0.0)
         snprintf(text, size, "with the opposite sign: --column 'torque=-%.60s'", place->column);
 }
@@ -337,4 +405,6 @@ void hci_check_error_locate(const check_error *error, const check_data *data, co
         move_unit(error, place, finding->should_be);
     else
         say_column(error, data, place, finding);
+    say_phases(error, data, finding);
+    if (is_geared(error)) say_unit_of_gear(data, place, finding);
 }

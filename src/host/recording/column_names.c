@@ -196,8 +196,11 @@ static hci_status unknown_name(const hci_column_name *item, hci_status status, h
     else if (is_quantity(item->column) && strchr(item->column, ' '))
         suggest_before_header(item, remedy, sizeof remedy);
     else if (is_quantity(item->column))
-        snprintf(remedy, sizeof remedy, "the column stands behind the sign: %s=%.200s", item->column,
-                 item->name);
+        snprintf(
+            remedy, sizeof remedy,
+            "the column stands behind the sign: %s=%.200s, of a column of that name; one that is called %s "
+            "needs none",
+            item->column, item->name, item->column);
     else
         suggest_quantity(item->name, remedy, sizeof remedy);
     return hci_note_set(note, status, "%.300s: found %s, expected a quantity of a recording; %s", item->from,

@@ -73,6 +73,13 @@ static bool looks_like_angle(const char *name)
     return hci_name_words_like(HCI_LIKE_POSITION, name, NULL);
 }
 
+/* A speed in rpm under a name with "rotor", say, is none. */
+static bool has_unit_of_another(const hci_run_columns *c, size_t column)
+{
+    const hci_unit *unit = hci_column_unit(c->csv, column);
+    return unit != NULL && unit->dimension != hci_unit_find("rad", 3)->dimension;
+}
+
 /* The header of the first column after another one that is likely to be the angle; NULL: none. */
 static const char *next_likely_angle(const hci_run_columns *c, size_t *column_after)
 {
@@ -82,7 +89,8 @@ static const char *next_likely_angle(const hci_run_columns *c, size_t *column_af
         for (int k = 0; k < HCI_RUN_COLUMN_COUNT; ++k)
             known = known || (c->has[k] && c->at[k] == column);
         *column_after = column + 1;
-        if (!known && (hci_csv_counts(name) || looks_like_angle(name))) return name;
+        if (!known && (hci_csv_counts(name) || (looks_like_angle(name) && !has_unit_of_another(c, column))))
+            return name;
     }
     return NULL;
 }
@@ -247,6 +255,21 @@ hci_status hci_run_columns_angle_like(const hci_run_columns *c, const double *th
     return HCI_OK;
 }
 
+/* Orders, with amplitudes or components, and nothing of a recording. */
+static hci_status refuse_orders(const hci_run_columns *c)
+{
+    char path[HCI_QUOTE_PATH_SIZE];
+    bool has_order = false;
+    for (size_t column = 0; column < hci_csv_columns(c->csv); ++column)
+        has_order = has_order || hci_csv_same_name(hci_csv_name(c->csv, column), "order");
+    if (!has_order || has_any(c)) return HCI_OK;
+    return hci_note_set(
+        c->note, HCI_ERROR_INPUT,
+        "%s:%zu: found a table of orders, as a machine or a target has it, expected a recording: "
+        "a row for each sample, with its angle; give the log that was measured",
+        hci_quote_path(hci_csv_path(c->csv), path), hci_csv_record_line(c->csv, 0));
+}
+
 static bool has_names(const hci_csv *csv, const char *first, const char *second)
 {
     return hci_csv_columns(csv) >= 2 && hci_csv_same_name(hci_csv_name(csv, 0), first) &&
@@ -329,6 +352,7 @@ static hci_status check_angle(const hci_run_columns *c, bool is_needed)
 {
     if (c->has[HCI_RUN_THETA_M] || c->has[HCI_RUN_THETA_E]) return HCI_OK;
     hci_status status = refuse_list(c);
+    if (!status) status = refuse_orders(c);
     if (!status) status = hci_csv_check_clear(c->csv, c->note);
     if (!status && !is_needed && has_any(c) && !c->has[HCI_RUN_VA] && !c->has[HCI_RUN_VAB]) {
         hci_note_add(c->remark, "no angle: what needs it is not compared");

@@ -852,6 +852,34 @@ static void test_phases_swapped_in_one_recording(void)
     remove_files();
     check_three(8.0, (mistake *const[]){b_and_c_swapped, b_and_c_swapped, b_and_c_swapped});
     TEST_ASSERT_EQUAL_STRING("phases_swapped", check.finding[0].slip);
+    TEST_ASSERT_EQUAL_STRING("b and c the other way round: --column 'ib=ic_A' --column 'ic=ib_A'",
+                             check.finding[0].should_be);
+}
+
+MISTAKE(columns_of_c_a_b, const double a = x->i[0]; x->i[0] = x->i[2]; x->i[2] = x->i[1]; x->i[1] = a)
+
+static void test_phases_in_another_order_name_their_columns(void)
+{
+    check_three(8.0, (mistake *const[]){columns_of_c_a_b, columns_of_c_a_b, columns_of_c_a_b});
+    for (size_t k = 0; k < check.findings; ++k)
+        if (strcmp(check.finding[k].slip, "phases_rotated") == 0) {
+            TEST_ASSERT_EQUAL_STRING(
+                "c, a, b in this order: --column 'ia=ib_A' --column 'ib=ic_A' --column 'ic=ia_A'",
+                check.finding[k].should_be);
+            return;
+        }
+    TEST_FAIL_MESSAGE("phases_rotated is not named");
+}
+
+/* 57.3 is no gear that anybody builds. */
+static void test_radians_under_a_name_of_degrees(void)
+{
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    check_runs("time_s,theta_m_deg,speed_rad_per_s,ia_A,ib_A,ic_A,va_V,vb_V,vc_V,torque_Nm", none, true);
+    TEST_ASSERT_EQUAL_STRING("angle_geared", check.finding[0].slip);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(check.finding[0].words, "is in rad, whatever the name"),
+                                 check.finding[0].words);
+    TEST_ASSERT_EQUAL_STRING("in rad: --column 'theta_m_rad=theta_m_deg'", check.finding[0].should_be);
 }
 
 #define RIPPLE(theta) (0.1 * sin(3.0 * (theta)) + 0.1 * sin(7.0 * (theta) + 1.0) + 0.1 * sin(24.0 * (theta)))
@@ -1428,6 +1456,8 @@ int main(void)
     RUN_TEST(test_a_zero_that_is_another_one);
     RUN_TEST(test_a_current_at_another_angle_is_no_other_zero);
     RUN_TEST(test_phases_swapped_in_one_recording);
+    RUN_TEST(test_phases_in_another_order_name_their_columns);
+    RUN_TEST(test_radians_under_a_name_of_degrees);
     RUN_TEST(test_a_ripple_that_has_moved_tells_another_zero);
     RUN_TEST(test_a_zero_that_is_less_than_a_quarter_on);
     RUN_TEST(test_the_mean_of_a_clipped_torque_is_none);

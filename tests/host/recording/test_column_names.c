@@ -244,6 +244,18 @@ static void test_an_angle_offset(void)
     text_has("expected an electrical angle to be added to that of the recording", note.text);
 }
 
+/* A table of a machine is told from a recording, and a speed under a name with "Rotor" is no angle. */
+static void test_what_is_no_angle(void)
+{
+    files_write(path, "order,amplitude_Nm_per_A,phase_rad\n1,0.1,0\n5,0.01,0\n");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_run());
+    text_has("found a table of orders", note.text);
+    files_write(path, "timestamps,MCU_RotorSpeed_rpm,MCU_RotorAngle_el_deg\n0,1,2\n1,2,3\n2,3,4\n");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_run());
+    text_has("`MCU_RotorAngle_el_deg` is the angle of the rotor", note.text);
+    TEST_ASSERT_NULL(strstr(note.text, "RotorSpeed"));
+}
+
 static void test_a_list_of_columns_is_no_recording(void)
 {
     files_write(path, "name,column\ntheta_m_deg,Winkel\n");
@@ -489,6 +501,7 @@ int main(void)
     RUN_TEST(test_the_opposite_sign);
     RUN_TEST(test_one_list_for_two_languages);
     RUN_TEST(test_an_angle_offset);
+    RUN_TEST(test_what_is_no_angle);
     RUN_TEST(test_a_list_of_columns_is_no_recording);
     RUN_TEST(test_a_lost_time_is_said_first);
     RUN_TEST(test_units_that_are_said);
