@@ -119,6 +119,7 @@ typedef struct {
     bool lacks_d_current;                   /* i_d was not recorded, or is none */
     bool speed_is_electrical;               /* its column */
     bool dq_voltage_is_coherent;            /* follows the speed */
+    double declared_pole_pairs;             /* of the machine; 0: not given */
     double angle_range;                     /* of the recorded angle */
     double angle_rate;                      /* of the recorded angle over the recorded time; NAN: unknown */
     double angle_ratio;                     /* theta_e over theta_m where both were recorded, else NAN */

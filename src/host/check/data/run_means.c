@@ -16,16 +16,46 @@ static bool follows(const check_samples *s, size_t k)
     return !s->follows || s->follows[k];
 }
 
+/* Between samples that are further apart than half a turn whole turns are lost. */
+#define COARSE   0.4 /* of a turn, that the speed goes between some samples, and varies by */
+#define FOLLOWED 0.1 /* of a turn, rms, by which the angle then differs from the speed, but for whole turns  \
+                      */
+
+/* The steps of an angle within one turn whose whole turns the speed tells, as it is declared; false: it does
+ * not, or does not have to. path: out, their sum. */
+static bool follow_speed(const check_samples *s, const check_run *run, double *path)
+{
+    const double turn = 2.0 * HCI_PI,
+                 by = run->is_electrical && !run->speed_is_electrical ? run->declared_pole_pairs : 1.0;
+    double least = HUGE_VAL, most = -HUGE_VAL, square = 0.0, count = 0.0;
+    *path = 0.0;
+    if (!s->speed || !(by > 0.0) || run->angle_range > 1.001 * turn || run->angle_range < 0.9 * turn)
+        return false;
+    for (size_t k = 1; k < s->count; ++k) {
+        if (!follows(s, k)) continue;
+        const double told = 0.5 * by * (s->speed[k] + s->speed[k - 1]) * (s->time[k] - s->time[k - 1]);
+        const double off = remainder(s->theta[k] - s->theta[k - 1] - told, turn);
+        *path += told + off;
+        square += off * off;
+        count += 1.0;
+        least = fmin(least, told), most = fmax(most, told);
+    }
+    return fmax(fabs(least), fabs(most)) > COARSE * turn && most - least > COARSE * turn &&
+           square < FOLLOWED * FOLLOWED * turn * turn * count;
+}
+
 /* How far an angle goes over time, in the units of the columns, and the mean of the speed over the same
  * steps. Steps of more than half the range are where the angle was wrapped, whatever a turn is in its unit;
  * they are left out. */
 static void rates_take(const check_samples *s, check_run *run)
 {
     const size_t n = s->count;
-    double path = 0.0, along = 0.0, speed = 0.0;
+    double path = 0.0, along = 0.0, speed = 0.0, followed = 0.0;
     run->angle_rate = run->speed_over_time = NAN;
-    if (!s->theta || !s->time || n < 3 || hci_check_angle_is_torn(s->theta, n)) return;
-    const double most = 0.5 * run->angle_range;
+    if (!s->theta || !s->time || n < 3) return;
+    const bool is_coarse = follow_speed(s, run, &followed);
+    if (!is_coarse && hci_check_angle_is_torn(s->theta, n)) return;
+    const double most = is_coarse ? HUGE_VAL : 0.5 * run->angle_range;
     for (size_t k = 1; k < n; ++k) {
         const double step_s = s->time[k] - s->time[k - 1];
         if (!follows(s, k) || fabs(s->theta[k] - s->theta[k - 1]) > most) continue;
@@ -34,7 +64,7 @@ static void rates_take(const check_samples *s, check_run *run)
         if (s->speed) speed += 0.5 * step_s * (s->speed[k] + s->speed[k - 1]);
     }
     if (!(along > 0.0)) return;
-    run->angle_rate = path / along;
+    run->angle_rate = (is_coarse ? followed : path) / along;
     if (s->speed) run->speed_over_time = speed / along;
 }
 

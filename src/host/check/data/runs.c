@@ -29,6 +29,8 @@ static bool keep_samples(const check_samples *s, check_run *run)
 static bool part_take(const check_samples *s, check_data *data, check_run *run)
 {
     run->count = s->count;
+    const double p = data->value[CHECK_pole_pairs];
+    run->declared_pole_pairs = isfinite(p) ? p : 0.0;
     hci_check_run_means(s, run);
     if (s->theta) hci_check_run_frames(data, s, run);
     return keep_samples(s, run);

@@ -46,6 +46,30 @@ static const double *ramp(int which, double from, double step, double range)
 
 /* ---- angles */
 
+/* An electrical angle that goes from 0 to 0.8 turns between samples: wrapped steps of what is more than half
+ * a turn go backward, and the speed tells how far they went. */
+static void test_an_angle_too_coarse_to_unwrap(void)
+{
+    const double turn = 2.0 * 3.14159265358979323846;
+    double theta = 0.3, path = 0.0;
+    s.time = ramp(0, 0.0, DT_S, 0.0);
+    s.speed = ramp(2, 0.0, 0.8 * turn / DT_S / 23.0 / N, 0.0);
+    for (int k = 0; k < N; ++k) {
+        const double step = k > 0 ? 0.5 * 23.0 * DT_S * (column[2][k] + column[2][k - 1]) : 0.0;
+        theta += step, path += step;
+        column[1][k] = fmod(theta, turn);
+    }
+    s.theta = column[1];
+    run.is_electrical = true;
+    run.declared_pole_pairs = 23.0;
+    hci_check_run_means(&s, &run);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6 * path, path / (DT_S * (N - 1)), run.angle_rate);
+    for (int k = 0; k < N; ++k)
+        column[2][k] *= 9.549; /* of another unit, which the angle does not follow */
+    hci_check_run_means(&s, &run);
+    TEST_ASSERT_FALSE(fabs(run.angle_rate * DT_S * (N - 1) - path) < 0.1 * path);
+}
+
 /* An angle that is wrapped at 7 goes on at 0.5 a sample; the steps at its wraps are left out. */
 static void test_rates_of_an_angle(void)
 {
@@ -326,6 +350,7 @@ static void test_voltages_weighted_by_speed(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_an_angle_too_coarse_to_unwrap);
     RUN_TEST(test_rates_of_an_angle);
     RUN_TEST(test_rates_that_are_not_known);
     RUN_TEST(test_ratio_of_two_angles);
