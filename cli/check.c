@@ -163,11 +163,20 @@ static void show_gaps(const hci_check *c)
     }
 }
 
+/* Each topic once; by their names with --verbose, as docs/check.md has them. */
 static void show_untold(const hci_check *c, bool verbose)
 {
+    const char *before = "  not told     by these files: ";
     if (c->untolds > 0 && verbose) cli_say("\n");
-    for (size_t k = 0; k < c->untolds; ++k)
-        cli_say("%s%s", k > 0 ? ", " : "  not told     by these files: ", c->untold[k]);
+    for (size_t k = 0; k < c->untolds; ++k) {
+        const char *topic = verbose ? c->untold[k] : hci_check_slip_topic(c->untold[k]);
+        bool is_first = true;
+        for (size_t j = 0; j < k && !verbose; ++j)
+            is_first = is_first && strcmp(hci_check_slip_topic(c->untold[j]), topic) != 0;
+        if (!is_first) continue;
+        cli_say("%s%s", before, topic);
+        before = verbose ? ", " : "; ";
+    }
     if (c->untolds > 0) cli_say("\n");
 }
 

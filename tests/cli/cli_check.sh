@@ -7,7 +7,7 @@ cd "$source_dir" || exit 1
 # ---- nothing wrong
 
 run 0 check data/machine_c
-says '^consistent: ' '^  checked      10 relations agree; 25 not checked, ' '^  not told     by these files: poles_for_pole_pairs, '
+says '^consistent: ' '^  checked      10 relations agree; 25 not checked, ' '^  not told     by these files: the pole pairs; kind and unit of the back-EMF; '
 check "a clean check is more than three lines" [ "$(wc -l <"$work/stdout")" -eq 3 ]
 run 0 check data/machine_c --verbose
 says '^consistent: ' '0\.9964 +1  rated torque over what the rated current makes' 'not checked, for want of' 'a recording of currents, angle and torque: torque_size'

@@ -4,6 +4,8 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "hci/host/check/check.h"
+
 #define SQRT2  1.4142135623730951
 #define DEGREE (HCI_PI / 180.0)
 #define RPM    (2.0 * HCI_PI / 60.0)
@@ -236,4 +238,37 @@ void hci_check_error_apply(check_interpretation *as, const check_error *error)
     memcpy(&field, at, sizeof field);
     field = field * error->times + error->plus;
     memcpy(at, &field, sizeof field);
+}
+
+const char *hci_check_slip_topic(const char *slip)
+{
+    static const char *const TOPICS[] = {[CHECK_OF_POLES] = "the pole pairs",
+                                         [CHECK_OF_EMF] = "kind and unit of the back-EMF",
+                                         [CHECK_OF_EMF_SIGN] = "the sign of the back-EMF",
+                                         [CHECK_OF_EMF_ORDER] = "what the orders of the back-EMF count",
+                                         [CHECK_OF_COGGING_ORDER] =
+                                             "what the orders of the cogging torque count",
+                                         [CHECK_OF_PHASE] = "the unit of the phases in the tables",
+                                         [CHECK_OF_ZERO] = "the zero of the angle in the tables",
+                                         [CHECK_OF_RATED_CURRENT] = "whether rated_current is peak or rms",
+                                         [CHECK_OF_RESISTANCE] = "whether resistance is of a phase",
+                                         [CHECK_OF_SLOPE] = "what the slopes of the inductance are over",
+                                         [CHECK_OF_THETA] = "whether the angle is that of the rotor",
+                                         [CHECK_OF_THETA_UNIT] = "the unit of the angle",
+                                         [CHECK_OF_DIRECTION] = "the direction of the angle",
+                                         [CHECK_OF_RUN_ZERO] = "the zero of the angle in the recordings",
+                                         [CHECK_OF_PHASES] = "the order of the phases",
+                                         [CHECK_OF_CURRENT] = "whether currents are peak or rms",
+                                         [CHECK_OF_CURRENT_UNIT] = "the unit of the currents",
+                                         [CHECK_OF_CURRENT_SIGN] = "the sign of the currents",
+                                         [CHECK_OF_VOLTAGE] = "whether voltages are of phases",
+                                         [CHECK_OF_VOLTAGE_SIGN] = "the sign of the voltages",
+                                         [CHECK_OF_TORQUE] = "the sign of the torque",
+                                         [CHECK_OF_TORQUE_UNIT] = "the unit of the torque",
+                                         [CHECK_OF_SPEED] = "the unit of the speed",
+                                         [CHECK_OF_SPEED_SIGN] = "the sign of the speed",
+                                         [CHECK_OF_TIME] = "the unit of the time"};
+    for (size_t k = 0; k < HCI_CHECK_ERROR_COUNT; ++k)
+        if (strcmp(HCI_CHECK_ERRORS[k].name, slip) == 0) return TOPICS[HCI_CHECK_ERRORS[k].aspect];
+    return "";
 }

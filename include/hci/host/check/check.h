@@ -138,6 +138,9 @@ const hci_check *hci_check_ask(hci_check_inquiry *inquiry);
  * inquiry points at; NULL: nothing. */
 const char *hci_check_slip(void *inquiry);
 
+/* What a slip is about, in words: "the kind and unit of the back-EMF". Static; "" for another name. */
+const char *hci_check_slip_topic(const char *slip);
+
 /* "consistent", "slips", "ambiguous", "not_understood"; a static string. */
 const char *hci_check_verdict_name(hci_check_verdict verdict);
 
