@@ -135,6 +135,21 @@ static void take_pole_pairs(const cli_arguments *a, int pole_pairs, hci_waveform
 
 /* ---- the command ---- */
 
+/* Voltages of which no order repeats from turn to turn are of no machine with so many poles. Returns whether
+ * that is so, and says it. */
+static bool is_of_other_poles(const hci_waveform *w, int pole_pairs)
+{
+    hci_note remark = {{0}};
+    if (w->quantity != HCI_WAVEFORM_BACK_EMF || w->kept > 0) return false;
+    hci_note_set(&remark, HCI_NOT_REACHED,
+                 "no order of the voltages repeats from turn to turn with %d pole pairs; with the right "
+                 "number order 1 does: "
+                 "try another --pole-pairs, or see whether the shaft turned",
+                 pole_pairs);
+    cli_remark(&remark);
+    return true;
+}
+
 static hci_status analyse(const cli_arguments *a, const hci_waveform_options *o, const hci_run *run,
                           hci_note *note)
 {
@@ -145,9 +160,11 @@ static hci_status analyse(const cli_arguments *a, const hci_waveform_options *o,
     if (!status && cli_is_wordy()) {
         cli_show_waveform(&waveform, a->word[0]);
         cli_remark(&run->remark);
-        cli_remark(&waveform.remark);
     }
+    const bool is_empty = !status && is_of_other_poles(&waveform, o->pole_pairs);
+    if (!status && cli_is_wordy() && !is_empty) cli_remark(&waveform.remark);
     if (!status && a->given[JSON]) status = cli_print_json(hci_waveform_json(&waveform), note);
+    if (!status && is_empty) status = HCI_NOT_REACHED;
     hci_waveform_release(&waveform);
     return status;
 }
@@ -172,7 +189,7 @@ static int run(const cli_arguments *a)
     if (!status) status = analyse(a, &options, &recording, &note);
     hci_run_release(&recording);
     cli_reading_release(&reading);
-    return status ? cli_fail(status, &note) : 0;
+    return status > HCI_NOT_REACHED ? cli_fail(status, &note) : hci_status_exit_code(status);
 }
 
 const cli_command cli_harmonics = {
@@ -186,7 +203,7 @@ const cli_command cli_harmonics = {
     .example =
         "  hci-solve simulate data/machine_a data/drive/driven.csv -o out/driven\n"
         "  hci-solve harmonics out/driven/trajectory.csv --quantity cogging --pole-pairs 2 -o out/driven\n"
-        "\nExit codes: 0 done; " CLI_EXIT_ERRORS,
+        "\nExit codes: 0 done; 1 voltages of which no order repeats; " CLI_EXIT_ERRORS,
     .source = "cli/harmonics.c",
     .guide = "measuring.md",
     .run = run,

@@ -124,12 +124,22 @@ refused 3 'found no angle' "$work/voltages.csv" --quantity cogging --pole-pairs 
 refused 3 'none.csv: .*No such file' "$work/none.csv" --quantity cogging --pole-pairs 2
 sed '1s/theta_e_rad/theta/' "$work/shifted.csv" | cut -d , -f 1,2,4-7 >"$work/theta.csv"
 refused 3 'theta.csv:1: column 2 `theta`: found an angle that may be mechanical or electrical' "$work/theta.csv" --quantity back_emf --pole-pairs 4
-refused 3 'no angle of the rotor.*expected a column theta_m or theta_e' "$source_dir/data/machine_a/back_emf.csv" --quantity back_emf --pole-pairs 4
+refused 3 'back_emf.csv:3: found a table of orders.*expected a recording' "$source_dir/data/machine_a/back_emf.csv" --quantity back_emf --pole-pairs 4
 printf 'theta_m_deg,iq_A,torque_Nm\n0,1,0\n1,2,0\n' >"$work/held.csv"
 refused 3 'add --torque-constant' "$work/held.csv" --quantity cogging --pole-pairs 2
 refused 3 'do not go round' "$work/held.csv" --quantity cogging --pole-pairs 2 --torque-constant 1
 
 # ---- measured, where the recordings are at hand
+
+# Voltages of a machine with three pole pairs, taken for one with six: no order of them comes again each turn.
+awk 'BEGIN { srand(7); print "time_s,theta_m_rad,va_V,vb_V,vc_V"
+    for (k = 0; k < 6000; ++k) { t = 0.001 * k; x = 4.2 * t; printf "%.4f,%.6f", t, x
+        for (s = 0; s < 3; ++s) printf ",%.5f", 0.8 * sin(3 * x - s * 2.0943951) + 0.01 * (rand() - 0.5)
+        print "" } }' >"$work/three.csv"
+run 0 harmonics "$work/three.csv" --quantity back_emf --pole-pairs 3 -o "$work/three"
+run 1 harmonics "$work/three.csv" --quantity back_emf --pole-pairs 6
+says '0 orders' 'no order of the voltages repeats from turn to turn with 6 pole pairs.*another --pole-pairs'
+run 1 harmonics "$work/three.csv" --quantity back_emf --pole-pairs 6 --json
 
 measured=$source_dir/../shared/measured
 if [ -d "$measured" ]; then
