@@ -25,6 +25,7 @@ brake_log() { # FILE BRAKE_Nm WAIT_s JERK SIGN SEED [ARM_Nm]
             x += v * dt; t += dt } }' >"$1"
 }
 motor='--pole-pairs 5 --flux 0.0133333333333333 --slots 12 --torque 0.06'
+rated='--pole-pairs 5 --flux 0.0133333333333333 --slots 12 --rated-current 1'
 
 # ---- a shaft that waits is accused of nothing, and one whose current is counted the other way still is
 
@@ -43,6 +44,10 @@ check "the load is not said" grep -q 'i_q makes 0\.040* N·m forward and -0\.040
 check "a bound of a mean that nobody measured" [ "$(grep -c 'as the torque was measured' waits/summary.json waits/report.html | sed 's/.*://' | sort -u)" = 0 ]
 check "a current of rounding" [ "$(grep -c 'e-1[0-9] A' waits/report.html)" -eq 0 ]
 check "what says that the constant is declared" grep -q '^torque_constant,declared,' waits/diagnose/machine/diagnosis.csv
+
+run 0 tune waits.csv $rated -o rated # the two directions of a brake add up to nothing, and are a load
+says 'a torque without ripple of 0\.04[0-9]* N·m: what the recorded current makes against'
+check "a brake is no load" [ "$(grep -c 'no recording has a load' rated/summary.json)" -eq 0 ]
 
 # ---- the shaft turns round with a jerk; two loads without a torque sensor
 
