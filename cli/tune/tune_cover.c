@@ -23,6 +23,11 @@ double cli_tune_order_of_slots(const cli_tuning *t)
     return 2.0 * (double)(slots / a);
 }
 
+bool cli_tune_has_high_slots(const cli_tuning *t)
+{
+    return cli_tune_order_of_slots(t) > HCI_USUAL_ORDER + HCI_ORDER_TOLERANCE;
+}
+
 /* The share of the mechanical turn that has samples, in parts of it; 1 of more than one turn without a gap.
  * A part is at least twice as wide as samples lie apart. */
 static double share_of_turn(const hci_run *r, double samples_a_turn)
@@ -83,6 +88,7 @@ bool cli_tune_is_short(const cli_tuning *t)
 
 bool cli_tune_is_coarse(const cli_tuning *t)
 {
-    const double wanted = fmax(LEAST_ORDER, SLOT_MULTIPLE * cli_tune_order_of_slots(t));
+    const double twice = SLOT_MULTIPLE * cli_tune_order_of_slots(t);
+    const double wanted = fmax(LEAST_ORDER, cli_tune_has_high_slots(t) ? 0.0 : fmin(twice, MOST_ORDER));
     return t->highest_order > 0.0 && t->highest_order < wanted;
 }

@@ -315,19 +315,29 @@ static void say_once_a_turn(cli_tuning *t, const order_sum *sum, size_t count)
     }
 }
 
-/* Slots that are not those of the motor: no order that they make is among the larger ones. */
+static bool is_multiple(double order, double of)
+{
+    return order > 0.5 * of && fabs(remainder(order, of)) < HCI_ORDER_TOLERANCE;
+}
+
+/* Slots that are not those of the motor: no order that they make is among the larger ones, but such as the
+ * largest order makes by itself, as those of other slots do. Teeth that are not alike make the slots of a
+ * turn. */
 static void judge_slots(cli_tuning *t, const order_sum *sum, size_t count)
 {
-    const double slots = cli_tune_order_of_slots(t);
+    const double slots = cli_tune_order_of_slots(t),
+                 a_turn = t->declared.slots / t->declared.model.pole_pairs;
     double most_Nm = 0.0, order = 0.0;
+    if (!(slots > 0.0) || cli_tune_has_high_slots(t)) return;
     for (size_t k = 0; k < count; ++k)
         if (hypot(sum[k].sine_Nm, sum[k].cosine_Nm) > most_Nm)
             most_Nm = hypot(sum[k].sine_Nm, sum[k].cosine_Nm), order = sum[k].order;
-    for (size_t k = 0; k < count && slots > 0.0; ++k)
-        if (hypot(sum[k].sine_Nm, sum[k].cosine_Nm) > MUCH * most_Nm && sum[k].order > 0.5 * slots &&
-            fabs(remainder(sum[k].order, slots)) < HCI_ORDER_TOLERANCE)
+    if (!(order > 2.0) || is_multiple(order, slots) || is_multiple(order, a_turn)) return;
+    for (size_t k = 0; k < count; ++k)
+        if (hypot(sum[k].sine_Nm, sum[k].cosine_Nm) > MUCH * most_Nm && is_multiple(sum[k].order, slots) &&
+            !is_multiple(sum[k].order, order))
             return;
-    if (slots > 0.0 && order > 2.0) t->stranger_order = order;
+    t->stranger_order = order;
 }
 
 /* ---- what one speed does not tell from a ripple of the angle ---- */

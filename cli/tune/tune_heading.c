@@ -289,7 +289,7 @@ static void append_of_machine(cli_tuning *t)
                "multiples",
                cli_tune_order_words(t, t->stranger_order, order), t->declared.slots,
                2 * t->declared.model.pole_pairs, cli_tune_order_of_slots(t));
-    if (cli_tune_misses_slots(t))
+    if (cli_tune_misses_slots(t) && !cli_tune_has_high_slots(t))
         append(t, "; order %.5g, which slots and poles make, was not looked at", cli_tune_order_of_slots(t));
 }
 

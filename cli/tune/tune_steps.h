@@ -111,6 +111,10 @@ bool cli_tune_is_blocked(const cli_tuning *tune);
 /* The electrical order of the cogging torque of slots and poles; 0: the slots are not given. */
 double cli_tune_order_of_slots(const cli_tuning *tune);
 
+/* Whether that order is above all that are looked at, whatever the samples: so many slots for each pole that
+ * little is left of it, and what cogging torque there is comes of magnets and teeth that are not alike. */
+bool cli_tune_has_high_slots(const cli_tuning *tune);
+
 /* Whether the torque of a recording was typed, and none is measured. */
 bool cli_tune_is_typed(const cli_tuning *tune);
 

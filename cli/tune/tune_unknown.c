@@ -81,8 +81,22 @@ static void say_coarse(cli_tuning *t)
         t->highest_order);
 }
 
+static void say_high_slots(cli_tuning *t)
+{
+    hci_tuning_say(
+        &t->tuning, HCI_TUNING_UNKNOWN,
+        "The cogging torque of slots and poles, order %.5g: none above order %.0f is looked at. It "
+        "is small in a motor of so many slots beside its poles; what is found comes of magnets and "
+        "teeth that are not alike.",
+        cli_tune_order_of_slots(t), HCI_USUAL_ORDER);
+}
+
 static void say_missed_slots(cli_tuning *t)
 {
+    if (cli_tune_has_high_slots(t)) {
+        say_high_slots(t);
+        return;
+    }
     hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
                    "The cogging torque of slots and poles, order %.5g: orders above %.5g were not looked "
                    "at, since the samples lie too far apart. Turn more slowly, or log more often.",

@@ -220,7 +220,8 @@ static hci_waveform_options options_of(const cli_tuning *t, const hci_run *r, hc
 static bool reaches_slots(cli_tuning *t, const hci_waveform *w)
 {
     t->cogging_reach = (double)w->count * w->step;
-    t->has_alias = cli_tune_order_of_slots(t) > t->cogging_reach + HCI_ORDER_TOLERANCE;
+    t->has_alias =
+        cli_tune_order_of_slots(t) > t->cogging_reach + HCI_ORDER_TOLERANCE && !cli_tune_has_high_slots(t);
     return !t->has_alias; /* until another recording shows it */
 }
 

@@ -19,6 +19,17 @@ run 1 tune half.csv --pole-pairs 7 --kv 120 --inertia 1e-6 -o half
 says '^tuned, with something left open: .*; the logs cover 0.52 of a turn'
 check "how much to record" grep -q "Record at least one whole turn, better several" half/summary.json
 
+# ---- 33 slots and 10 poles: their order is above all that is looked at, however many samples there are, and nothing stands for it
+
+awk 'BEGIN { srand(6); print "time_s,theta_m_rad,speed_rad_per_s,id_A,iq_A"; turn = 6.283185307179586; for (k = 0; k < 10000; ++k) { t = 0.004 * k
+    way = t < 20 ? 1 : -1; x = 0.2 + 0.6 * (t < 20 ? t : 40 - t); printf "%.3f,%.6f,%.4f,0,%.5f\n", t, x, 0.6 * way,
+        0.05 * way + 0.3 * sin(33 * x + 0.4) + 0.2 * sin(30 * x + 0.1) + 0.01 * (rand() - 0.5) } }' >many.csv
+run 0 tune many.csv --pole-pairs 5 --kv 120 --slots 33 -o many
+says '^tuned: ' '  order 33/5: 0\.0'
+check "what is not looked at" grep -q 'The cogging torque of slots and poles, order 66: none above order 60 is looked at' many/summary.json
+check "samples are called too few" [ "$(grep -c 'lie too far apart' many/summary.json)" -eq 0 ]
+check "the slots of a turn are called strangers" [ "$(grep -c 'is none that' many/summary.json)" -eq 0 ]
+
 # NAME RPM AMPERES SAMPLES HELD: ten turns of four pole pairs, so many samples a turn; cogging torque of orders 6 and 12, a torque that is refreshed
 # at each HELD-th row
 dyno() {

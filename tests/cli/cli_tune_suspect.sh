@@ -161,6 +161,9 @@ says "^a table of no use: Nothing"
 
 run 0 tune even.csv --pole-pairs 7 --kv 100 --slots 9 --inertia 2e-5 -o nine
 says 'the largest order found, 12, is none that 9 slots and 14 poles make: 18 and its multiples'
+crawl third.csv x 'i - 0.02 * sin(252 * x + 0.3)' # 36 is a multiple of 12 as well as of 18
+run 0 tune third.csv --pole-pairs 7 --kv 100 --slots 9 --inertia 2e-5 -o third
+says 'the largest order found, 12, is none that 9 slots and 14 poles make: 18 and its multiples'
 
 awk -F, 'NR == 1 || int($2 / 3.14159) % 2 == 0' even.csv >gap.csv
 tuned 1 gap
