@@ -26,7 +26,7 @@ static const char *verdict_of(const cli_tuning *t)
            : t->inertia_share > 0.0                                ? "the inertia is not believable"
            : t->has_standstill                                     ? "not enough in the logs"
            : !t->is_emitted                                        ? "not enough in the logs"
-           : t->tuning.solved                                      ? "tuned, but not as wanted"
+           : cli_tune_is_missed(t)                                 ? "tuned, but not as wanted"
            : cli_tune_is_of_no_use(t) || cli_tune_is_never_seen(t) ? "a table of no use"
            : t->diagnosis.verdict == HCI_DIAGNOSIS_UNKNOWN         ? "tuned with what is certain"
                                                                    : "tuned, with something left open";
@@ -51,7 +51,7 @@ static bool is_sound(const cli_tuning *t)
 /* Whether the table is what was wanted, of a model that can be believed. */
 static bool is_good(const cli_tuning *t)
 {
-    return t->is_emitted && !t->diagnosed && !t->tuning.solved && !cli_tune_is_of_no_use(t) &&
+    return t->is_emitted && !t->diagnosed && !cli_tune_is_missed(t) && !cli_tune_is_of_no_use(t) &&
            !cli_tune_is_far_beyond(t) && !cli_tune_is_never_seen(t) && !cli_tune_misses_torque(t) &&
            !cli_tune_is_unpromised(t) &&
            !(t->is_solved && hci_expected_ripple_is_doubtful(&t->solution.expected));

@@ -162,6 +162,7 @@ hci_status cli_tune_emit(cli_tuning *t, hci_note *note)
     if (!status) status = read_header(folder, name, &header, note);
     if (status) return status;
     t->tuning.table_Nm = header.with_Nm;
+    t->cut_Nm = header.own_Nm;
     if (t->solution.expected.state == HCI_RIPPLE_KNOWN)
         hci_expected_ripple_add_table(&t->solution.expected, header.own_Nm, t->mean_Nm);
     if (cli_tune_is_of_no_use(t) || cli_tune_is_never_seen(t)) return say_nothing(t, folder, name);

@@ -175,6 +175,14 @@ bool cli_tune_misses_torque(const cli_tuning *t)
     return t->is_solved && fabs(cli_tune_made_Nm(t) - t->mean_Nm) > much_Nm;
 }
 
+bool cli_tune_is_missed(const cli_tuning *t)
+{
+    double before_Nm, after_Nm;
+    if (!t->is_solved || !t->tuning.solved) return false;
+    hci_tuning_swing(&t->solution, &before_Nm, &after_Nm);
+    return !(after_Nm < t->cut_Nm) || cli_tune_misses_torque(t);
+}
+
 double cli_tune_largest_recorded_A(const cli_tuning *t)
 {
     double most_A = 0.0;

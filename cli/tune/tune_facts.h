@@ -68,6 +68,9 @@ bool cli_tune_is_never_seen(const cli_tuning *tune);
 /* Whether the table makes another mean torque than is wanted. */
 bool cli_tune_misses_torque(const cli_tuning *tune);
 
+/* Whether the currents are not what was wanted, by more than their cut to a table makes anyhow. */
+bool cli_tune_is_missed(const cli_tuning *tune);
+
 /* Whether the peak current of the table is so far beyond the recorded ones that a wrong unit is likely. */
 bool cli_tune_is_far_beyond(const cli_tuning *tune);
 

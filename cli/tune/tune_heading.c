@@ -210,6 +210,21 @@ static void append_of_zero(cli_tuning *t)
             fabs(t->turned_deg), t->turned_error_deg, cli_tune_offset_to_give(t));
 }
 
+/* What keeps the currents from being as wanted: a limit that binds, or the order that is off most. */
+static void append_of_miss(cli_tuning *t)
+{
+    const hci_solution *s = &t->solution;
+    if (!cli_tune_is_missed(t)) return;
+    for (size_t k = 0; k < s->limit_count; ++k)
+        if (s->limit[k].binds) {
+            append(t, "; the torque is not as wanted, since the currents keep a limit, %s %.4g A",
+                   hci_limit_kind_name(s->limit[k].kind), s->limit[k].limit);
+            return;
+        }
+    append(t, "; the torque is not as wanted: order %.4g is off by %.2g N·m, and more than %.2g N·m counts",
+           s->worst_order, s->worst_error_Nm, fmax(s->tolerance_Nm, 0.5 * t->cut_Nm));
+}
+
 /* What the table needs of the drive, and does not do. */
 static void append_of_table(cli_tuning *t)
 {
@@ -222,6 +237,7 @@ static void append_of_table(cli_tuning *t)
     if (t->is_solved && *t->solution.corrections) append_of_gain(t);
     append_of_zero(t);
     append_of_doubt(t);
+    append_of_miss(t);
     if (cli_tune_misses_torque(t))
         append(t, "; the table makes %.4g N·m on average, and not the %.4g N·m that were wanted",
                cli_tune_made_Nm(t), t->mean_Nm);

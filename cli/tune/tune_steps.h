@@ -88,6 +88,7 @@ typedef struct {
     hci_target target;
     hci_solution solution;
     bool is_solved, is_emitted;
+    double cut_Nm;                     /* is_emitted: ripple that the cut to a table makes, peak to peak */
     double open_Nm[HCI_TUNING_POINTS]; /* torque without current */
     cli_tune_size size;                /* of an excess no table is written */
     double open_swing_Nm, usual_A;     /* of open_Nm, peak to peak; the load that size was judged by */
