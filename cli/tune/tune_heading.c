@@ -7,6 +7,8 @@
 
 #include "cli/tune/tune_cover.h"
 #include "cli/tune/tune_facts.h"
+#include "cli/tune/tune_read.h"
+#include "cli/tune/tune_recorded.h"
 #include "cli/tune/tune_size.h"
 #include "cli/tune/tune_suspect.h"
 
@@ -48,6 +50,26 @@ static void say_bound(const cli_tuning *t, double before_Nm, double after_Nm, ch
                  hci_ripple_bound_as_said(e->peak_to_peak_Nm));
 }
 
+/* Beside a model that does not explain what was recorded stands what was recorded. */
+static void say_doubtful(const cli_tuning *t, double before_Nm, char *text, size_t size)
+{
+    const cli_tune_ripple x = cli_tune_recorded_ripple(t);
+    char current[32] = "without current";
+    snprintf(text, size, "%s, so what the table leaves of the ripple is not to be relied on",
+             isfinite(t->solution.expected.unbelievable_order)
+                 ? "A back-EMF that is not believable is in the model"
+             : t->diagnosis.verdict < HCI_DIAGNOSIS_PARTLY
+                 ? "The search for what makes the ripple ended before all was compared"
+                 : "The model does not explain the recordings");
+    if (x.current_A > 0.0) snprintf(current, sizeof current, "at %.3g A", x.current_A);
+    if (x.run < t->runs.count)
+        snprintf(text + strlen(text), size - strlen(text),
+                 ": %.120s shows %.2g N·m from peak to peak %s, and a plain sine in the model makes %.2g N·m "
+                 "at %.3g A",
+                 cli_tune_name_of(t, x.run), x.peak_to_peak_Nm, current, before_Nm,
+                 t->solution.plain_amplitude_A);
+}
+
 static void say_fall(cli_tuning *t, char *text, size_t size)
 {
     const hci_expected_ripple *e = &t->solution.expected;
@@ -60,12 +82,7 @@ static void say_fall(cli_tuning *t, char *text, size_t size)
             "believable, and the table is not to be used",
             before_Nm, cli_tune_largest_recorded_Nm(t));
     else if (hci_expected_ripple_is_doubtful(e))
-        snprintf(text, size, "%s, so what the table leaves of a ripple of %.3g N·m is not to be relied on",
-                 isfinite(e->unbelievable_order) ? "A back-EMF that is not believable is in the model"
-                 : t->diagnosis.verdict < HCI_DIAGNOSIS_PARTLY
-                     ? "The search for what makes the ripple ended before all was compared"
-                     : "The model does not explain the recordings",
-                 before_Nm);
+        say_doubtful(t, before_Nm, text, size);
     else if (e->state == HCI_RIPPLE_KNOWN)
         say_bound(t, before_Nm, after_Nm, text, size);
     else

@@ -1,5 +1,5 @@
 /* The first line of what tune says: what the table does, or why there is none, and all that makes it
- * doubtful. Uses tune_facts, tune_cover, tune_size, tune_suspect. */
+ * doubtful. Uses tune_facts, tune_cover, tune_read, tune_recorded, tune_size, tune_suspect. */
 #ifndef HCI_CLI_TUNE_HEADING_H
 #define HCI_CLI_TUNE_HEADING_H
 

@@ -133,13 +133,26 @@ static void row_of(hci_output *out, const char *name, const char *before, const 
     hci_html_compare_row(out, name, (const char *const[]){before, after, machine, NULL});
 }
 
+/* "1.2 N·m|at most 0.01 N·m off (95 %)", where a torque was measured. */
+static void cell_of_mean(char text[CELL_SIZE], const hci_solution *s)
+{
+    const hci_expected_ripple *e = &s->expected;
+    char mean[HCI_HTML_NUMBER_SIZE], off[HCI_HTML_NUMBER_SIZE];
+    snprintf(text, CELL_SIZE, "|not known");
+    if (e->state != HCI_RIPPLE_KNOWN || !isfinite(e->mean_error_Nm)) return;
+    hci_html_quantity_text(mean, e->mean_Nm, "N·m");
+    hci_html_quantity_text(off, hci_ripple_bound_as_said(e->mean_error_Nm), "N·m");
+    snprintf(text, CELL_SIZE, "%s|at most %s off (95 %%)", mean, off);
+}
+
 static void row_of_mean(const hci_solution_page *p)
 {
     const hci_solution *s = p->solution;
-    char before[CELL_SIZE], after[HCI_HTML_NUMBER_SIZE];
+    char before[CELL_SIZE], after[HCI_HTML_NUMBER_SIZE], machine[CELL_SIZE];
     hci_html_quantity_text(before, has_mean(s) ? s->order[0].before_Nm.cosine : 0.0, "N·m");
     hci_html_quantity_text(after, mean_Nm(s), "N·m");
-    row_of(p->out, "Mean torque", before, after, "–");
+    cell_of_mean(machine, s);
+    row_of(p->out, "Mean torque", before, after, machine);
 }
 
 static void row_of_ripple(const hci_solution_page *p)
@@ -153,7 +166,10 @@ static void row_of_ripple(const hci_solution_page *p)
     cell_of_ripple(before, s, swing_Nm(p->facts.before_Nm), has_mean(s) ? s->order[0].before_Nm.cosine : 0.0);
     cell_of_ripple(after, s, swing_Nm(p->facts.after_Nm), mean_Nm(s));
     if (s->expected.state == HCI_RIPPLE_KNOWN) cell_of_bound(machine, s);
-    row_of(p->out, "Torque ripple, peak to peak", before, after, machine);
+    row_of(p->out,
+           hci_expected_ripple_is_doubtful(&s->expected) ? "Torque ripple in the model, peak to peak"
+                                                         : "Torque ripple, peak to peak",
+           before, after, machine);
 }
 
 static void row_of_currents(const hci_solution_page *p)
@@ -198,11 +214,16 @@ void hci_page_before_and_after(const hci_solution_page *p)
 
 void hci_page_solution_verdict(const hci_solution_page *p, hci_status verdict, const char *machine)
 {
+    const bool is_doubtful = hci_expected_ripple_is_doubtful(&p->solution->expected);
     char heading[512], kicker[512];
     heading_of(p, verdict, heading);
     snprintf(kicker, sizeof kicker, "Currents for a wanted torque · %s", machine ? machine : "");
-    hci_html_begin(p->out, &(hci_html_opening){kicker, verdict == HCI_OK ? "Reached" : "Not reached", heading,
-                                               verdict == HCI_OK});
+    hci_html_begin(p->out,
+                   &(hci_html_opening){kicker,
+                                       verdict != HCI_OK ? "Not reached"
+                                       : is_doubtful     ? "Reached in a model that is not to be relied on"
+                                                         : "Reached",
+                                       heading, verdict == HCI_OK && !is_doubtful});
     say_lead(p);
     hci_page_before_and_after(p);
     if (p->solution->remark.text[0]) hci_html_paragraph(p->out, "quiet", p->solution->remark.text);

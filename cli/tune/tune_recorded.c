@@ -1,0 +1,92 @@
+#include "cli/tune/tune_recorded.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/tune/tune_current.h"
+#include "hci/machine/frames.h"
+#include "hci/math/harmonic.h"
+
+/* Parts of the turn at most, samples in each of them at least, on average, and those of which the median is
+ * taken. */
+enum { MOST_PARTS = 480, IN_A_PART = 8, LEAST_PARTS = 12, KEPT = 15 };
+
+typedef struct {
+    double kept_Nm[MOST_PARTS][KEPT]; /* the last ones */
+    size_t count[MOST_PARTS], parts, samples;
+} part_samples;
+
+static double torque_of(const cli_tuning *t, const hci_run *r, size_t n)
+{
+    return r->torque_source == HCI_TORQUE_HOLDING
+               ? t->reading.run.torque_constant_Nm_per_A *
+                     hci_park(hci_clarke(r->i_A + 3 * n), r->pole_pairs * r->theta_m_rad[n]).q
+               : r->torque_Nm[n];
+}
+
+static bool goes(const hci_run *r, size_t n, int way)
+{
+    return !r->speed_rad_per_s || (way > 0 ? r->speed_rad_per_s[n] >= 0.0 : r->speed_rad_per_s[n] < 0.0);
+}
+
+static void add_all(const cli_tuning *t, const hci_run *r, int way, part_samples *m)
+{
+    const double turn_rad = 2.0 * HCI_PI / (r->turn_known ? 1.0 : r->pole_pairs);
+    for (size_t n = 0; n < r->count; ++n) {
+        const double turns = r->theta_m_rad[n] / turn_rad;
+        const size_t part = (size_t)((turns - floor(turns)) * (double)m->parts) % m->parts;
+        if (goes(r, n, way)) m->kept_Nm[part][m->count[part]++ % KEPT] = torque_of(t, r, n);
+    }
+}
+
+static int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* A few rows in which the shaft speeds up or turns round do not move it. */
+static double median_of(part_samples *m, size_t part)
+{
+    const size_t count = m->count[part] < KEPT ? m->count[part] : KEPT;
+    qsort(m->kept_Nm[part], count, sizeof(double), by_value);
+    return 0.5 * (m->kept_Nm[part][(count - 1) / 2] + m->kept_Nm[part][count / 2]);
+}
+
+/* In one direction, since friction and a brake turn with it. 0: too few samples. */
+static double swing_of(const cli_tuning *t, const hci_run *r, int way)
+{
+    static part_samples m;
+    double least_Nm = HUGE_VAL, most_Nm = -HUGE_VAL;
+    memset(&m, 0, sizeof m);
+    for (size_t n = 0; n < r->count; ++n)
+        m.samples += goes(r, n, way);
+    m.parts = m.samples / IN_A_PART < MOST_PARTS ? m.samples / IN_A_PART : MOST_PARTS;
+    if (m.parts < LEAST_PARTS) return 0.0;
+    add_all(t, r, way, &m);
+    for (size_t k = 0; k < m.parts; ++k) {
+        if (2 * m.count[k] < IN_A_PART) continue;
+        const double median_Nm = median_of(&m, k);
+        least_Nm = fmin(least_Nm, median_Nm);
+        most_Nm = fmax(most_Nm, median_Nm);
+    }
+    return fmax(most_Nm - least_Nm, 0.0);
+}
+
+cli_tune_ripple cli_tune_recorded_ripple(const cli_tuning *t)
+{
+    cli_tune_ripple x = {t->runs.count, 0.0, 0.0};
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        if ((r->torque_source != HCI_TORQUE_MEASURED && r->torque_source != HCI_TORQUE_HOLDING) ||
+            !r->torque_Nm || !r->theta_m_rad)
+            continue;
+        const double swing_Nm = fmax(swing_of(t, r, 1), r->speed_rad_per_s ? swing_of(t, r, -1) : 0.0);
+        if (!(swing_Nm > x.peak_to_peak_Nm)) continue;
+        x.run = k;
+        x.peak_to_peak_Nm = swing_Nm;
+        x.current_A = cli_tune_has_no_current(t, r) ? 0.0 : sqrt(2.0) * cli_tune_rms_A(r);
+    }
+    return x;
+}
