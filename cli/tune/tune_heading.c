@@ -177,44 +177,53 @@ static void append_of_doubt(cli_tuning *t)
                t->open_swing_Nm, t->open_swing_Nm / cli_tune_rated_Nm(t));
 }
 
-/* Of the spread of three gains: their mean is one share of all three. */
-#define COMMON 3.0
+/* Of the gains, that are no matter. */
+#define LEAST_GAIN 0.002
 
-/* What readings of the three phases are divided by. */
+/* What readings of the phases are divided by: of two of them or all. */
 static bool are_gains(const hci_effect *e)
 {
     for (size_t j = 0; j < e->count && e->type->correction; ++j)
         if (e->type->correction[e->term[j].parameter].plus != 1.0) return false;
-    return e->count == 3 && e->type->correction;
+    return (e->count == 2 || e->count == 3) && e->type->correction;
 }
 
-/* The gain less 1 that all three sensors have in common; 0: none, or not all were found. */
+/* The mean of the three gains, less 1, which has an equal in the back-EMF whatever their ratios; 0: none. */
 static double common_gain(const cli_tuning *t)
 {
     const hci_effects *list = &t->diagnosis.effects.list;
     for (size_t k = 0; k < list->count; ++k) {
         const hci_effect *e = &list->effect[k];
+        double mean = 0.0;
         if (!are_gains(e)) continue;
-        const double mean = (e->term[0].value + e->term[1].value + e->term[2].value) / 3.0;
-        double spread = 0.0;
-        for (size_t j = 0; j < 3; ++j)
-            spread = fmax(spread, fabs(e->term[j].value - mean));
-        return fabs(mean) > COMMON * spread ? mean : 0.0;
+        for (size_t j = 0; j < e->count; ++j)
+            mean += e->term[j].value / 3.0;
+        return fabs(mean) > LEAST_GAIN ? mean : 0.0;
     }
     return 0.0;
 }
 
 /* Torque is back-EMF times current: a sensor of the torque does not tell a share of the one from one of the
- * other. */
+ * other, nor from one of its own. */
 static void append_of_gain(cli_tuning *t)
 {
-    const double gain = common_gain(t), emf = -gain / (1.0 + gain);
-    if (fabs(gain) > 0.0)
+    const double gain = common_gain(t), other = -gain / (1.0 + gain);
+    if (fabs(gain) > 0.0 && t->has_emf)
+        append(
+            t,
+            " (or, as to all three of them %.2g %% are common, the torque sensor reads %.2g %% too %s "
+            "instead: the back-EMF is from voltages of these logs, and nothing in them tells the two apart)",
+            100.0 * fabs(gain), 100.0 * fabs(other), other < 0.0 ? "little" : "much");
+    else if (fabs(gain) > 0.0)
         append(
             t,
             " (or, as to all three of them %.2g %% are common, the back-EMF is %.2g %% %s instead, which a "
             "torque sensor does not tell from it and voltages of the open machine do)",
-            100.0 * fabs(gain), 100.0 * fabs(emf), emf < 0.0 ? "smaller" : "larger");
+            100.0 * fabs(gain), 100.0 * fabs(other), other < 0.0 ? "smaller" : "larger");
+    if (strstr(t->solution.corrections, " A from i_"))
+        append(
+            t,
+            " (the offsets are those of the logs: a drive that nulls its sensors at each start has others)");
 }
 
 static void append_of_zero(cli_tuning *t)
