@@ -65,6 +65,12 @@ static hci_status give(const cli_arguments *a, const cli_batch_work *w, hci_note
 
 static hci_status read_all(const cli_arguments *a, cli_batch *b, cli_batch_work *w, hci_note *note)
 {
+    for (int k = 0; COMMANDS[k].word && a->words > 1; ++k)
+        if (strcmp(a->word[0], COMMANDS[k].word) == 0)
+            return hci_note_set(note, HCI_ERROR_ARGUMENT,
+                                "batch: found the word `%s` before the list, expected --command %s: "
+                                "hci-solve batch %.300s --command %s",
+                                a->word[0], a->word[0], a->word[1], a->word[0]);
     if (!a->value[OUT]) return hci_note_set(note, HCI_ERROR_ARGUMENT, "batch: add --out FOLDER");
     if (!a->given[COMMAND])
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "batch: add --command fit, diagnose, tune or solve");

@@ -87,8 +87,9 @@ static hci_status find_machine(const cli_arguments *a, inputs *in, hci_note *not
     if (!wanted && stat(table, &there) != 0)
         return hci_note_set(note, HCI_ERROR_INPUT,
                             "%.300s: found no such file, expected the --out of a diagnosis; run hci-solve "
-                            "diagnose MACHINE --runs LIST --out %.200s first",
-                            table, a->value[AGAIN]);
+                            "diagnose MACHINE --runs LIST --out LAST first, with a folder LAST of its own, "
+                            "and give that",
+                            table);
     const hci_status status = keep_apart(in->folder, a->value[OUT], "declared", note);
     return status ? status : keep_apart(in->folder, a->value[OUT], "machine", note);
 }

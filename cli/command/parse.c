@@ -2,6 +2,7 @@
 
 #include "cli/command/parse.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -46,6 +47,8 @@ static hci_status unknown_option(const cli_command *command, const char *word, h
         names[k] = command->options[k].name;
     snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 1, "="), word + (word[1] == '-' ? 2 : 1));
     name[strcspn(name, "=")] = '\0';
+    for (char *at = name; *at; ++at)
+        *at = (char)tolower((unsigned char)*at);
     nearest = hci_nearest(name, names);
     if (nearest == NULL && say_family(name, names, family, sizeof family))
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
@@ -241,6 +244,22 @@ static const char *remedy_of(const cli_option *o, const char *text)
     return has_unit(text) ? "give the number without its unit" : NULL;
 }
 
+/* The number that a text with a unit behind it, or with a decimal comma, most likely means: 28.5 of
+ * `28,5rpm/V`; false: none that the option takes. */
+static bool meant_of(const cli_option *o, const char *text, char meant[32])
+{
+    double value;
+    size_t length = strspn(text, "+-0123456789.,eE");
+    if (hci_number_parse(text, &value)) return false;
+    snprintf(meant, 32, "%.*s", (int)(length < 31 ? length : 31), text);
+    char *comma = strchr(meant, ',');
+    if (comma) *comma = '.';
+    while (*meant && !hci_number_parse(meant, &value))
+        meant[strlen(meant) - 1] = '\0';
+    return *meant && value >= o->low && value <= o->high &&
+           (o->kind == CLI_NUMBER || fmod(value, o->step > 1 ? o->step : 1) == 0.0);
+}
+
 static hci_status wrong_number(const cli_option *o, const char *text, hci_note *note)
 {
     const char *what = o->kind == CLI_NUMBER ? "a number"
@@ -248,8 +267,11 @@ static hci_status wrong_number(const cli_option *o, const char *text, hci_note *
                        : o->step == 3        ? "a multiple of 3"
                                              : "a whole number";
     const char *remedy = remedy_of(o, text);
-    return hci_note_set(note, HCI_ERROR_ARGUMENT, "--%s: found `%.60s`, expected %s from %g to %g%s%s",
-                        o->name, text, what, o->low, o->high, remedy ? "; " : "", remedy ? remedy : "");
+    char meant[32], write[96] = "";
+    if (meant_of(o, text, meant)) snprintf(write, sizeof write, "; write --%s %s", o->name, meant);
+    return hci_note_set(note, HCI_ERROR_ARGUMENT, "--%s: found `%.60s`, expected %s from %g to %g%s%s%s",
+                        o->name, text, what, o->low, o->high, remedy ? "; " : "", remedy ? remedy : "",
+                        write);
 }
 
 static hci_status read_number(const cli_option *o, const char *text, double *number, hci_note *note)

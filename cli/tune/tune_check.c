@@ -169,10 +169,21 @@ static bool has_finding(const cli_tuning *t, const hci_check *c)
     return has;
 }
 
+#define LEAST_SAID 0.01 /* a probability that is worth a word */
+
+/* Of what would tell, the part that was not given. */
+static const char *not_given(const cli_tuning *t, const char *told_by)
+{
+    static const char RATED[] = "rated_current in machine.csv, or ";
+    const bool is_rated = told_by && strncmp(told_by, RATED, sizeof RATED - 1) == 0;
+    return is_rated && t->declared.rated_current_A > 0.0 ? told_by + sizeof RATED - 1 : told_by;
+}
+
 /* Where it is certain that something is read wrongly, and not what: all that would do. */
 static void judge_ambiguous(cli_tuning *t, const hci_check *c)
 {
     const char *told_by = NULL;
+    double others = 1.0 - c->probability_as_declared;
     if (t->has_slip || cli_tune_is_typed(t) || c->verdict != HCI_CHECK_AMBIGUOUS ||
         c->probability_as_declared > 1.0 - HCI_CHECK_FOUND)
         return;
@@ -183,8 +194,10 @@ static void judge_ambiguous(cli_tuning *t, const hci_check *c)
         const hci_check_finding *f = &c->finding[k];
         if (is_excluded(t, f->slip)) continue;
         append(t, "%s%s (%.2g %%)", told_by ? ", or " : ": ", f->words, 100.0 * probability_of(t, c, f));
-        if (!told_by) told_by = f->told_by;
+        others -= probability_of(t, c, f);
+        if (!told_by) told_by = not_given(t, f->told_by);
     }
+    if (others > LEAST_SAID) append(t, ", or another slip (%.2g %%)", 100.0 * others);
     if (told_by) append(t, "; what would tell: %s", told_by);
     append(t, ", so nothing was solved");
 }
@@ -264,8 +277,7 @@ static void judge_zero(cli_tuning *t, const hci_check *c)
 static void judge_check(cli_tuning *t, const hci_check *c)
 {
     judge_zero(t, c);
-    if (cli_tune_say_mixed_torque(t, t->slip, sizeof t->slip))
-        t->has_slip = true;
+    if (cli_tune_say_mixed_torque(t, t->slip, sizeof t->slip)) t->has_slip = true;
     t->counts_pole_pairs = counts_pole_pairs(t, c);
     for (size_t k = 0; k < c->evidences && c->verdict != HCI_CHECK_CONSISTENT; ++k)
         judge_torque(t, c, &c->evidence[k]);

@@ -100,14 +100,14 @@ hci_status cli_tune_run(cli_tuning *t, const cli_command *command, cli_tune_line
     const cli_arguments *a = t->arguments;
     cli_terminal_begin(a->given[QUIET], a->given[JSON], (cli_color)a->choice[COLOR]);
     if (code == 0) return HCI_OK;
-    return hci_note_set(
-        note,
-        code == 2   ? HCI_ERROR_ARGUMENT
-        : code == 3 ? HCI_ERROR_INPUT
-        : code == 5 ? HCI_ERROR_OUTPUT
-                    : HCI_ERROR_NUMERIC,
-        "tune: the step `%s` failed, for the reason above; correct that and begin again with a new --out",
-        c->word[0]);
+    return hci_note_set(note,
+                        code == 2   ? HCI_ERROR_ARGUMENT
+                        : code == 3 ? HCI_ERROR_INPUT
+                        : code == 5 ? HCI_ERROR_OUTPUT
+                                    : HCI_ERROR_NUMERIC,
+                        "tune: the step `%s` failed, for the reason above; correct that and give the same "
+                        "call again",
+                        c->word[0]);
 }
 
 void cli_tune_path(const cli_tuning *t, const char *name, char path[CLI_TUNE_PATH])

@@ -111,13 +111,11 @@ static void say_table(cli_tuning *t, const char *name, const char *folder, const
 static void say_other_drives(cli_tuning *t, const char *currents, const char *machine, unsigned long turns)
 {
     const char *name = t->arguments->value[TUNE_NAME] ? t->arguments->value[TUNE_NAME] : "tuned";
-    char folder[CLI_TUNE_PATH];
-    cli_tune_path(t, "table", folder);
     hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
                    "For a drive whose firmware is somebody else's: hci-solve emit %s --name %s --for %s "
-                   "--machine %s%s -o %s, or another one of docs/drives.",
+                   "--machine %s%s -o FOLDER, a new one, or another drive of docs/drives.",
                    currents, name, turns > 1 ? "moteus" : "simplefoc", machine,
-                   cli_tune_knows_zero(t) ? "" : " --angle-of-logs", folder);
+                   cli_tune_knows_zero(t) ? "" : " --angle-of-logs");
     if (cli_tune_offset(t))
         hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
                        "The zero of the logs is not the machine's: a map over the encoder's turn takes "

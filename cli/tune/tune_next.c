@@ -170,7 +170,7 @@ static void say_next_correction(cli_tuning *t)
         hci_tuning_say(
             r, HCI_TUNING_NEXT,
             "Correct what the first line and `slip` name (in the log, by its header or by --column, or in "
-            "%s), and begin again with a new --out.",
+            "%s), and begin again; --out may be the same.",
             !t->is_own                       ? t->machine
             : t->arguments->given[TUNE_VOLT] ? "the options of the motor: --volt-of says of what the voltage "
                                                "is, such as line-peak"

@@ -110,6 +110,13 @@ fresh
 solved 2 'did you mean `--target`\?' -- --targt t.csv
 solved 2 'found `ummfpack`, expected one of: .*; did you mean `umfpack`\?' -- --method ummfpack
 solved 2 '.*give the number without its unit' -- --limit-voltage 48V --speed 1000
+for kv in 28,5 28.5rpm/V 28,5rpm/V; do run 2 init kv --pole-pairs 7 --kv $kv -o kv; says '; write --kv 28\.5$'; done
+run 2 init kv --pole-pairs 7 --kv -28 -o kv; check 'a number that is none is proposed' [ "$(grep -c 'write --kv' stderr)" = 0 ]
+run 2 init kv --pole-pairs 7 --KV 28; says 'unknown option `--KV`; did you mean `--kv`\?'
+run 2 batch tune motors.csv -o batch; says 'found the word `tune` before the list, expected --command tune: hci-solve batch motors.csv --command tune'
+run 2 batch tune motors.csv --command tune -o batch; says 'hci-solve batch motors.csv --command tune'
+run 3 diagnose --again m --runs runs.csv -o diagnosed; says 'found no such file, expected the --out of a diagnosis'
+check 'the machine is to be written over' [ "$(grep -c -- '--out m ' stderr)" = 0 ]
 run 2 sovle m; says 'did you mean `solve`\?'
 run 2 harmonics r.csv --quantity back-emf --pole-pairs 2; says 'did you mean `back_emf`\?'
 printf 'name,value,unit\nduration,40,ms\nprescribed_sped,1500,rpm\n' >s.csv
