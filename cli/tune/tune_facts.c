@@ -227,6 +227,17 @@ const char *cli_tune_constant_option(const cli_tuning *t)
     return "the back-EMF of the machine";
 }
 
+#define MOST_rpm 1e5
+
+double cli_tune_strange_rpm(const cli_tuning *t)
+{
+    const hci_machine_data *m = &t->declared;
+    const double Vs_per_rad = t->reading.run.torque_constant_Nm_per_A / 1.5;
+    if (!(m->resistance_ohm > 0.0) || !(m->rated_current_A > 0.0) || !(Vs_per_rad > 0.0)) return 0.0;
+    const double rpm = m->resistance_ohm * m->rated_current_A / Vs_per_rad * 30.0 / HCI_PI;
+    return rpm > MOST_rpm ? rpm : 0.0;
+}
+
 bool cli_tune_is_of_no_use(const cli_tuning *t)
 {
     double before_Nm, after_Nm;

@@ -74,6 +74,10 @@ bool cli_tune_is_missed(const cli_tuning *tune);
 /* Whether the peak current of the table is so far beyond the recorded ones that a wrong unit is likely. */
 bool cli_tune_is_far_beyond(const cli_tuning *tune);
 
+/* The speed, in rpm, at which the back-EMF is what the winding drops at the rated current, where no motor
+ * turns so fast: Kv, resistance or current is another one; 0: believable, or not known. */
+double cli_tune_strange_rpm(const cli_tuning *tune);
+
 /* A table with which the known ripple is not smaller in the very model that it was solved for, or which takes
  * none away since none was found. */
 bool cli_tune_is_of_no_use(const cli_tuning *tune);

@@ -274,6 +274,11 @@ static void append_of_table(cli_tuning *t)
                t->solution.peak_phase_current_A,
                t->solution.peak_phase_current_A / cli_tune_largest_recorded_A(t),
                cli_tune_largest_recorded_A(t));
+    if (cli_tune_strange_rpm(t) > 0.0)
+        append(t,
+               "; what the resistance takes at the rated current would turn this motor at %.2g rpm: are %s, "
+               "--resistance and --rated-current of this motor and in their units?",
+               cli_tune_strange_rpm(t), cli_tune_constant_option(t));
     if (cli_tune_is_below_idle(t))
         append(t,
                "; by this Kv %.3g N·m take %.3g A, and the shaft without a load took up to %.3g A: is %s the "

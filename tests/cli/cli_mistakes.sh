@@ -113,6 +113,9 @@ solved 2 '.*give the number without its unit' -- --limit-voltage 48V --speed 100
 for kv in 28,5 28.5rpm/V 28,5rpm/V; do run 2 init kv --pole-pairs 7 --kv $kv -o kv; says '; write --kv 28\.5$'; done
 run 2 init kv --pole-pairs 7 --kv -28 -o kv; check 'a number that is none is proposed' [ "$(grep -c 'write --kv' stderr)" = 0 ]
 run 2 init kv --pole-pairs 7 --KV 28; says 'unknown option `--KV`; did you mean `--kv`\?'
+run 0 init henry --pole-pairs 7 --kv 100 --inductance 0.5; says 'a short circuit of this motor would carry 0\.016 A at any speed: is it 0\.5 mH, which are 0\.0005 H\?'
+run 0 init milli --pole-pairs 7 --kv 100 --inductance 0.0005; check 'half a millihenry is doubted' [ ! -s stderr ]
+run 0 init krpm --pole-pairs 11 --kv 28000 --resistance 8 --rated-current 1.5; says 'would turn this motor at 5\.8e\+05 rpm: are Kv, resistance and current'
 run 2 batch tune motors.csv -o batch; says 'found the word `tune` before the list, expected --command tune: hci-solve batch motors.csv --command tune'
 run 2 batch tune motors.csv --command tune -o batch; says 'hci-solve batch motors.csv --command tune'
 run 3 diagnose --again m --runs runs.csv -o diagnosed; says 'found no such file, expected the --out of a diagnosis'

@@ -47,6 +47,8 @@ for unit in 'degrees 57.29577951 theta_m_deg=theta_m_rad' 'counts 1303.797 theta
     check "a table over $1" [ ! -e fast/table ]
     rm -rf fast
 done
+run 1 tune even.csv --pole-pairs 7 --kv 100000 --resistance 8 --rated-current 1.5 --inertia 1e-9 -o krpm
+says '; what the resistance takes at the rated current would turn this motor at 2\.[0-9]*e\+06 rpm: are --kv, --resistance and --rated-current'
 crawl third.csv 'x / 3' i
 tuned 1 third
 says '^a convention is broken: Most likely the angle of the recordings is of a shaft behind a gear of 3'

@@ -133,6 +133,27 @@ static const char *convention_error_of(double ratio, bool from_flux)
     return "";
 }
 
+/* Faster no shaft is turned by what the winding drops at its rated current; less no short circuit carries. */
+#define MOST_rpm 1e5
+#define LEAST_A  0.1
+
+static void remark_on_winding(const hci_sheet *s, hci_note *remark)
+{
+    const double rpm = hci_sheet_resistance_ohm(s) * hci_sheet_current_A(s) / emf(s) / RPM;
+    const double short_A = emf(s) / s->pole_pairs / s->inductance_d_H;
+    if (isfinite(rpm) && rpm > MOST_rpm)
+        hci_note_set(
+            remark, HCI_OK,
+            "the voltage that the resistance takes at the rated current would turn this motor at %.2g "
+            "rpm: are Kv, resistance and current in rpm/V, ohm and A, and of this motor?",
+            rpm);
+    else if (s->inductance_d_H > 0.0 && short_A < LEAST_A)
+        hci_note_set(remark, HCI_OK,
+                     "with an inductance of %.3g H a short circuit of this motor would carry %.2g A at any "
+                     "speed: is it %.3g mH, which are %.3g H?",
+                     s->inductance_d_H, short_A, s->inductance_d_H, 1e-3 * s->inductance_d_H);
+}
+
 void hci_sheet_remark(const hci_sheet *s, hci_note *remark)
 {
     const double torque_Nm = 1.5 * emf(s) * hci_sheet_current_A(s);
@@ -149,4 +170,6 @@ void hci_sheet_remark(const hci_sheet *s, hci_note *remark)
             "at rated speed the back-EMF is %.4g V line-to-line peak, above the dc link of %.4g V: check "
             "how the sheet's constant is meant, or expect field weakening",
             line_V, s->dc_link_voltage_V);
+    else
+        remark_on_winding(s, remark);
 }
