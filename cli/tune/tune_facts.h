@@ -78,6 +78,10 @@ bool cli_tune_is_far_beyond(const cli_tuning *tune);
  * turns so fast: Kv, resistance or current is another one; 0: believable, or not known. */
 double cli_tune_strange_rpm(const cli_tuning *tune);
 
+/* What the inertia that a slow turn itself asked for took out of its torque, rms, the most of all recordings;
+ * kgm2: out, that inertia. 0: --inertia was given, or none was asked for. */
+double cli_tune_taken_by_inertia_Nm(const cli_tuning *tune, double *kgm2);
+
 /* A table with which the known ripple is not smaller in the very model that it was solved for, or which takes
  * none away since none was found. */
 bool cli_tune_is_of_no_use(const cli_tuning *tune);

@@ -316,10 +316,27 @@ static void append_of_torque(cli_tuning *t)
                t->fast_Hz);
 }
 
+/* Of the ripple, that an inertia may take out and not be spoken of in the first line. */
+#define MUCH_INERTIA 0.05
+
+static void append_of_inertia(cli_tuning *t)
+{
+    double kgm2, before_Nm, after_Nm, taken_Nm = cli_tune_taken_by_inertia_Nm(t, &kgm2);
+    if (!t->is_solved || !(taken_Nm > 0.0)) return;
+    hci_tuning_swing(&t->solution, &before_Nm, &after_Nm);
+    if (taken_Nm > MUCH_INERTIA * before_Nm)
+        append(
+            t,
+            "; an inertia of %.3g kg·m² was found in the log, nobody knows how exactly, and %.2g N·m rms of "
+            "the ripple hang on it: --inertia gives it",
+            kgm2, taken_Nm);
+}
+
 /* What they do not tell of the machine, and what of them was not used. */
 static void append_of_machine(cli_tuning *t)
 {
     char order[CLI_TUNE_ORDER];
+    append_of_inertia(t);
     if (cli_tune_is_uncounted(t))
         append(t, "; that there are %d pole pairs is taken on trust, since nothing in these logs counts them",
                t->declared.model.pole_pairs);

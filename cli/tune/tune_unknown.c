@@ -142,10 +142,26 @@ static void say_limits(cli_tuning *t)
     if (cli_tune_misses_slots(t)) say_missed_slots(t);
 }
 
+static void say_inertia(cli_tuning *t)
+{
+    double kgm2, taken_Nm = cli_tune_taken_by_inertia_Nm(t, &kgm2);
+    if (!t->is_solved || !(taken_Nm > 0.0)) return;
+    hci_tuning_say(
+        &t->tuning, HCI_TUNING_UNKNOWN,
+        "How exact the inertia is: %.3g kg·m² is what makes the turns of the log agree, without an "
+        "error; it took %.2g N·m rms out of the torque of the current, and where it is off by a "
+        "half, so is half of that among the orders found; ± has none of it.",
+        kgm2, taken_Nm);
+    hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
+                   "Give --inertia of the rotor with what turns with it, or turn the shaft at a third of the "
+                   "speed: then it hardly matters.");
+}
+
 /* The machine that recordings without a torque sensor or voltages leave open. */
 static void say_machine(cli_tuning *t)
 {
     if (t->is_solved && cli_tune_lacks_sign(t)) say_unknown_sign(t);
+    say_inertia(t);
     if (t->is_solved && t->is_own && !t->has_emf && !t->has_load)
         hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
                        "The torque per ampere and the back-EMF are those of the data sheet; voltages of the "

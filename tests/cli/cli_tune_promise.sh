@@ -66,6 +66,17 @@ unit_is() { # EXPRESSION NAME HEADER: of the columns; of --column that is said; 
 unit_is '$1 *= 1e6' time_us time_s,theta_m_rad,speed_rad_per_s,id_A,iq_A
 unit_is '$3 *= 1' speed_rad_per_s time_s,theta_m_rad,speed_rpm,id_A,iq_A
 
+# an inertia that the turns themselves ask for has no error, and what hangs on it is said
+awk 'BEGIN { srand(2); print "time_s,theta_m_rad,speed_rad_per_s,id_A,iq_A"; turn = 6.283185307179586; w = 1.2566; step = turn / 3000
+    for (k = 0; k < 12000; ++k) { way = k < 6000 ? 1 : -1; x = step * (k < 6000 ? k : 12000 - k); at = way > 0 ? 0.3 : 2.1
+        v = w * (1 + 0.2 * cos(84 * x + at)); rise = -v * w * 0.2 * 84 * sin(84 * x + at); t += step / v
+        printf "%.6f,%.7f,%.6f,0,%.5f\n", t, x, way * v, way * 0.05 + 0.3 * sin(84 * x + 0.4) + 1e-4 / 0.0689 * rise + 0.002 * (rand() - 0.5) } }' >uneven_turn.csv
+run 0 tune uneven_turn.csv --pole-pairs 7 --kv 120 --rated-current 3 -o uneven_turn
+says '; an inertia of [0-9.e-]* kg·m² was found in the log, nobody knows how exactly, and 0\.00[0-9]* N·m rms of the ripple hang on it: --inertia'
+check "what is not known of the inertia" grep -q 'How exact the inertia is: ' uneven_turn/summary.json
+"$hci_solve" tune uneven_turn.csv --pole-pairs 7 --kv 120 --rated-current 3 --inertia 1e-4 -o uneven_turn -q 2>stderr
+check "an inertia that is given is doubted" [ "$(grep -c 'How exact the inertia\|nobody knows how exactly' uneven_turn/summary.json)" -eq 0 ]
+
 # ---- beside a model that does not explain what was recorded stands what was recorded
 
 uneven() { # FILE RPM AMPERES: the ripple of the load swells and fades over the turns
