@@ -251,6 +251,15 @@ double cli_tune_strange_rpm(const cli_tuning *t)
     return rpm > MOST_rpm ? rpm : 0.0;
 }
 
+bool cli_tune_is_boundless(const cli_tuning *t)
+{
+    const hci_expected_ripple *e = &t->solution.expected;
+    double before_Nm, after_Nm;
+    if (!t->is_solved || e->state != HCI_RIPPLE_KNOWN || !(t->mean_Nm > 0.0)) return false;
+    hci_tuning_swing(&t->solution, &before_Nm, &after_Nm);
+    return e->peak_to_peak_Nm > fmax(t->mean_Nm, before_Nm);
+}
+
 bool cli_tune_is_of_no_use(const cli_tuning *t)
 {
     double before_Nm, after_Nm;

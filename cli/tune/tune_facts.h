@@ -82,6 +82,10 @@ double cli_tune_strange_rpm(const cli_tuning *tune);
  * kgm2: out, that inertia. 0: --inertia was given, or none was asked for. */
 double cli_tune_taken_by_inertia_Nm(const cli_tuning *tune, double *kgm2);
 
+/* Whether the bound on the ripple is more than the torque itself, and than the ripple of a plain sine: it
+ * bounds nothing. */
+bool cli_tune_is_boundless(const cli_tuning *tune);
+
 /* A table with which the known ripple is not smaller in the very model that it was solved for, or which takes
  * none away since none was found. */
 bool cli_tune_is_of_no_use(const cli_tuning *tune);

@@ -83,6 +83,11 @@ static void say_fall(cli_tuning *t, char *text, size_t size)
             before_Nm, cli_tune_largest_recorded_Nm(t));
     else if (hci_expected_ripple_is_doubtful(e))
         say_doubtful(t, before_Nm, text, size);
+    else if (cli_tune_is_boundless(t))
+        snprintf(text, size,
+                 "A ripple of %.3g N·m from peak to peak %s %.3g N·m in the model; on the machine it is not "
+                 "known: the recordings bound it by no less than the torque itself",
+                 before_Nm, becomes(before_Nm, after_Nm), after_Nm);
     else if (e->state == HCI_RIPPLE_KNOWN)
         say_bound(t, before_Nm, after_Nm, text, size);
     else

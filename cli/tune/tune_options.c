@@ -1,32 +1,32 @@
 #include "cli/tune/tune_options.h"
 
-#define AS_IN_INIT(name, value)                                                                              \
+#define OF_SHEET(name, value, words)                                                                         \
     {                                                                                                        \
-        name, 0, CLI_TEXT, value, .help = "as in init"                                                       \
+        name, 0, CLI_TEXT, value, .help = words                                                              \
     }
 
 const cli_option cli_tune_options[] = {
     [TUNE_POLE_PAIRS] = {"pole-pairs", 0, CLI_TEXT, "P",
                          .help = "half the number of magnets around the rotor"},
     [TUNE_POLES] = {"poles", 0, CLI_TEXT, "N", .help = "the same as magnets, 2 P"},
-    [TUNE_KV] = {"kv", 0, CLI_TEXT, "RPM_PER_V",
-                 .help = "strength of the magnets as Kv, or by one of the next five, as in init"},
-    [TUNE_KV_OF] = AS_IN_INIT("kv-of", "WORD"),
-    [TUNE_VOLT] = AS_IN_INIT("volt-per-krpm", "V"),
-    [TUNE_VOLT_OF] = AS_IN_INIT("volt-of", "WORD"),
-    [TUNE_CONSTANT] = AS_IN_INIT("torque-constant", "NM_PER_A"),
-    [TUNE_CONSTANT_OF] = AS_IN_INIT("torque-of", "WORD"),
-    [TUNE_FLUX] = AS_IN_INIT("flux", "WB"),
+    [TUNE_KV] = {"kv", 0, CLI_TEXT, "RPM_PER_V", .help = "strength of the magnets as Kv, rpm per volt"},
+    [TUNE_KV_OF] = OF_SHEET("kv-of", "WORD", "... of: line-peak (default), line-rms, phase-peak"),
+    [TUNE_VOLT] = OF_SHEET("volt-per-krpm", "V", "or as back-EMF at 1000 rpm"),
+    [TUNE_VOLT_OF] =
+        OF_SHEET("volt-of", "WORD", "... of: line-rms (default), line-peak, phase-peak, phase-rms"),
+    [TUNE_CONSTANT] = OF_SHEET("torque-constant", "NM_PER_A", "or as torque per ampere"),
+    [TUNE_CONSTANT_OF] = OF_SHEET("torque-of", "WORD", "... of: peak (default), rms, dc"),
+    [TUNE_FLUX] = OF_SHEET("flux", "WB", "or as flux linkage of a phase, peak"),
     [TUNE_SLOTS] = {"slots", 0, CLI_TEXT, "N", .help = "of the stator; what check holds the cogging against"},
-    [TUNE_RESISTANCE] = AS_IN_INIT("resistance", "OHM"),
-    [TUNE_RESISTANCE_OF] = AS_IN_INIT("resistance-of", "WORD"),
+    [TUNE_RESISTANCE] = OF_SHEET("resistance", "OHM", "of the winding"),
+    [TUNE_RESISTANCE_OF] = OF_SHEET("resistance-of", "WORD", "... of: phase (default), line"),
     [TUNE_INERTIA] = {"inertia", 0, CLI_TEXT, "KGM2",
                       .help = "of the rotor with what turns with it; a log of a free shaft needs it"},
     [TUNE_CURRENT] = {"rated-current", 0, CLI_TEXT, "A",
                       .help = "of a phase, peak; the currents heat no more than such a sine"},
-    [TUNE_CURRENT_OF] = AS_IN_INIT("current-of", "WORD"),
-    [TUNE_RATED_TORQUE] = AS_IN_INIT("rated-torque", "NM"),
-    [TUNE_DC_LINK] = AS_IN_INIT("dc-link", "V"),
+    [TUNE_CURRENT_OF] = OF_SHEET("current-of", "WORD", "... of: peak (default), rms"),
+    [TUNE_RATED_TORQUE] = OF_SHEET("rated-torque", "NM", "of the shaft; solved for where no log shows less"),
+    [TUNE_DC_LINK] = OF_SHEET("dc-link", "V", "of the inverter"),
     [TUNE_RUNS] = {"runs", 0, CLI_FILE, "LIST", .help = "table file,role: recordings of MACHINE"},
     [TUNE_TORQUE] =
         {"torque", 0, CLI_NUMBER, "NM",

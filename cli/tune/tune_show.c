@@ -29,7 +29,7 @@ static void show_before_and_after(const cli_tuning *t)
     double before_Nm, after_Nm;
     char expected[64] = "not known";
     cli_tune_swing_of(t, &before_Nm, &after_Nm);
-    if (e->state == HCI_RIPPLE_KNOWN)
+    if (e->state == HCI_RIPPLE_KNOWN && !cli_tune_is_boundless(t))
         snprintf(expected, sizeof expected, "at most %.3g N·m (95 %%)",
                  hci_ripple_bound_as_said(e->peak_to_peak_Nm));
     if (after_Nm < s->tolerance_Nm) after_Nm = 0.0;
@@ -78,6 +78,9 @@ void cli_show_tuning(const cli_tuning *t)
         char words[1024];
         show_before_and_after(t);
         hci_expected_ripple_words(&t->solution.expected, words, sizeof words);
+        if (cli_tune_is_boundless(t))
+            snprintf(words, sizeof words,
+                     "Ripple not known: the recordings bound it by no less than the torque itself.");
         cli_say("  on the real machine\n");
         cli_say_paragraph(4, words);
     }

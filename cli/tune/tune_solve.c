@@ -186,6 +186,16 @@ static void note_target(cli_tuning *t)
     cli_tune_note(t, "printf 'order,amplitude_Nm,phase_rad\\n0,%s,0\\n' >\"$OUT\"/target.csv\n", mean);
 }
 
+/* A torque of the angle alone has no mean: what there is of it is the zero of a torque sensor. */
+static void take_mean_out(double open_Nm[HCI_TUNING_POINTS])
+{
+    double mean_Nm = 0.0;
+    for (size_t k = 1; k < HCI_TUNING_POINTS; ++k)
+        mean_Nm += open_Nm[k] / (HCI_TUNING_POINTS - 1);
+    for (size_t k = 0; k < HCI_TUNING_POINTS; ++k)
+        open_Nm[k] -= mean_Nm;
+}
+
 /* What the corrected machine makes without current: over a mechanical turn where the logs know it. */
 static hci_status open_torque(cli_tuning *t, hci_note *note)
 {
@@ -202,6 +212,7 @@ static hci_status open_torque(cli_tuning *t, hci_note *note)
     for (size_t k = 0; k < HCI_TUNING_POINTS; ++k)
         theta_m_rad[k] = 2.0 * HCI_PI * turns * (double)k / (HCI_TUNING_POINTS - 1);
     const hci_status status = hci_predict(&t->corrected, &t->found.list, &run, t->open_Nm, note);
+    if (!status) take_mean_out(t->open_Nm);
     if (!status) t->tuning.open_Nm = t->open_Nm;
     return status;
 }

@@ -114,10 +114,16 @@ static void cell_of_ripple(char text[CELL_SIZE], const hci_solution *s, double s
 }
 
 /* As the sentences below the table say it. */
-static void cell_of_bound(char text[CELL_SIZE], const hci_solution *s)
+static void cell_of_bound(char text[CELL_SIZE], const hci_solution_page *p)
 {
+    const hci_solution *s = p->solution;
     const double bound_Nm = hci_ripple_bound_as_said(s->expected.peak_to_peak_Nm);
     char in_Nm[HCI_PAGE_SWING_SIZE];
+    if (fabs(mean_Nm(s)) > s->tolerance_Nm &&
+        bound_Nm > fmax(fabs(mean_Nm(s)), swing_Nm(p->facts.before_Nm))) {
+        snprintf(text, CELL_SIZE, "not known|bounded by no less than the torque itself");
+        return;
+    }
     hci_page_swing(in_Nm, (hci_range){0.0, bound_Nm}, s->tolerance_Nm);
     snprintf(text, CELL_SIZE, "at most %s", in_Nm);
     if (fabs(mean_Nm(s)) > NO_MEAN * bound_Nm && bound_Nm >= s->tolerance_Nm)
@@ -165,7 +171,7 @@ static void row_of_ripple(const hci_solution_page *p)
     }
     cell_of_ripple(before, s, swing_Nm(p->facts.before_Nm), has_mean(s) ? s->order[0].before_Nm.cosine : 0.0);
     cell_of_ripple(after, s, swing_Nm(p->facts.after_Nm), mean_Nm(s));
-    if (s->expected.state == HCI_RIPPLE_KNOWN) cell_of_bound(machine, s);
+    if (s->expected.state == HCI_RIPPLE_KNOWN) cell_of_bound(machine, p);
     row_of(p->out,
            hci_expected_ripple_is_doubtful(&s->expected) ? "Torque ripple in the model, peak to peak"
                                                          : "Torque ripple, peak to peak",
