@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "cli/tune/tune_current.h"
 #include "cli/tune/tune_options.h"
+#include "cli/tune/tune_recorded.h"
 #include "cli/tune/tune_waveforms.h"
 
 /* Of the data sheet, that a measured back-EMF may be off and not be a contradiction. */

@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/tune/tune_current.h"
 #include "cli/tune/tune_facts.h"
+#include "cli/tune/tune_recorded.h"
 #include "hci/host/waveform/turning_load.h"
 
 /* ---- effects ---- */

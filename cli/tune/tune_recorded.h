@@ -1,8 +1,19 @@
-/* The ripple that recordings show by themselves, whatever a model says of it. Uses tune_steps. */
+/* What recordings show by themselves, whatever a model says of it: whether a current flows, and the ripple.
+ * Uses tune_steps. */
 #ifndef HCI_CLI_TUNE_RECORDED_H
 #define HCI_CLI_TUNE_RECORDED_H
 
 #include "cli/tune/tune_steps.h"
+
+/* rms of a phase, over the three. */
+double cli_tune_rms_A(const hci_run *run);
+
+/* None, or what a sensor of current makes of none. */
+bool cli_tune_has_no_current(const cli_tuning *tune, const hci_run *run);
+
+/* Whether all currents in the rotor frame lie on one line, as with i_d at 0: the torque shows one sum of the
+ * back-EMF along i_d and along i_q then, in which its orders 6k − 1 and 6k + 1 are one order 6k. */
+bool cli_tune_currents_are_in_line(const cli_tuning *tune);
 
 typedef struct {
     size_t run;             /* the recording that shows most; the number of recordings: none shows any */

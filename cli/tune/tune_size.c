@@ -3,9 +3,9 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "cli/tune/tune_current.h"
 #include "cli/tune/tune_facts.h"
 #include "cli/tune/tune_read.h"
+#include "cli/tune/tune_recorded.h"
 #include "cli/tune/tune_waveforms.h"
 
 /* Cogging torque, peak to peak, to the rated torque: motors have some percent. */

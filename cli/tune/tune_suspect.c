@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "cli/tune/tune_cover.h"
-#include "cli/tune/tune_current.h"
+#include "cli/tune/tune_recorded.h"
 #include "hci/math/harmonic.h"
 
 /* ---- the folder ---- */

@@ -4,9 +4,9 @@
 #include <stdio.h>
 
 #include "cli/tune/tune_commands.h"
-#include "cli/tune/tune_current.h"
 #include "cli/tune/tune_options.h"
 #include "cli/tune/tune_read.h"
+#include "cli/tune/tune_recorded.h"
 #include "cli/tune/tune_waveforms.h"
 #include "hci/host/base/number.h"
 #include "hci/host/waveform/waveform.h"
