@@ -32,9 +32,14 @@ _COLUMN = (re.compile(r"^--column (?P<quote>)(?P<name>[^=\s]+)=(?P<column>.*?)(?
            re.compile(r"""--column (?P<quote>["']?)(?P<name>[^="'\s]+)=(?P<column>[^"']+?)(?P=quote)(?=[\s;,)]|$)"""))
 
 
+def raw_text(pointer: Any) -> str:
+    """A string of C as it is; "" for NULL."""
+    return "" if pointer == ffi.NULL else ffi.string(pointer).decode("utf-8", "replace")
+
+
 def text(pointer: Any) -> str:
-    """A string of C; "" for NULL."""
-    words = "" if pointer == ffi.NULL else ffi.string(pointer).decode("utf-8", "replace")
+    """Words of the library as one says them in Python; "" for NULL."""
+    words = raw_text(pointer)
     for column in _COLUMN if "--column" in words else ():
         words = column.sub(r'columns={"\g<name>": "\g<column>"}', words)
     return words

@@ -8,7 +8,7 @@ import json
 from typing import TYPE_CHECKING, Any, Dict, Optional, Tuple, Union
 
 from ._binding import ffi, lib
-from ._call import text
+from ._call import raw_text
 from .errors import OutOfMemoryError
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ def json_of(pointer: Any) -> Dict[str, Any]:
     if pointer == ffi.NULL:
         raise OutOfMemoryError("out of memory for the summary")
     try:
-        found: Dict[str, Any] = json.loads(text(pointer))
+        found: Dict[str, Any] = json.loads(raw_text(pointer))
         return found
     finally:
         lib.hci_text_free(pointer)
