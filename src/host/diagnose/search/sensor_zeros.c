@@ -6,6 +6,15 @@
 
 enum { PHASES = 3 };
 
+/* Whether all torques are of a sensor. Where a shaft is held the currents are what is measured, zeros and
+ * all. */
+static bool are_of_sensors(const hci_regression *e)
+{
+    for (size_t r = 0; r < e->samples->run_count; ++r)
+        if (e->use[r] && e->runs[r].torque_source != HCI_TORQUE_MEASURED) return false;
+    return true;
+}
+
 /* The type that shows in the sum of the currents whatever flows; NULL: there is none. */
 static const hci_effect_type *type_of_zeros(void)
 {
@@ -58,7 +67,7 @@ hci_status hci_search_sensor_zeros(hci_search *s, hci_fitted_model *model, bool 
     const hci_effect_type *type = type_of_zeros();
     hci_fitted_model zeros = {0};
     *changed = false;
-    if (!type || s->no_current) return HCI_OK;
+    if (!type || s->no_current || !are_of_sensors(s->regression)) return HCI_OK;
     hci_status status = hci_fitted_model_copy(model, &zeros, note);
     if (!status && once_a_turn_leaves(&zeros.candidates)) {
         status = zeros_enter(&zeros.candidates, type, note);

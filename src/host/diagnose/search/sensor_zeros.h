@@ -10,7 +10,8 @@
 #include "host/diagnose/search/search.h"
 
 /* Where zeros of all phases describe the recordings as well, they take the place of a torque of order 1 that
- * needs no current. changed: out, whether the model has been replaced. HCI_ERROR_MEMORY. */
+ * needs no current; of recordings with a sensor of torque. changed: out, whether the model has been replaced.
+ * HCI_ERROR_MEMORY. */
 hci_status hci_search_sensor_zeros(hci_search *search, hci_fitted_model *model, bool *changed,
                                    hci_note *note);
 

@@ -102,6 +102,14 @@ static void test_not_where_nothing_needs_a_current(void)
     TEST_ASSERT_FALSE(is_replaced(1.0));
 }
 
+static void test_not_of_a_shaft_that_is_held(void)
+{
+    record_loop(1.0, 0.0);
+    run[3].torque_source = HCI_TORQUE_HOLDING;
+    TEST_ASSERT_FALSE(is_replaced(1.0));
+    TEST_ASSERT_TRUE(model_has("cogging"));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -109,5 +117,6 @@ int main(void)
     RUN_TEST(test_cogging_torque_stays);
     RUN_TEST(test_of_order_one_alone);
     RUN_TEST(test_not_where_nothing_needs_a_current);
+    RUN_TEST(test_not_of_a_shaft_that_is_held);
     return UNITY_END();
 }
