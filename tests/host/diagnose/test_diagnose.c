@@ -141,6 +141,22 @@ static void test_holding_map(void)
     TEST_ASSERT_EQUAL_UINT64(2, diagnosis.effects.list.count);
 }
 
+/* Twice the pole pairs: what is declared stands at half its orders, and no cogging torque is made of it. */
+static void test_holding_map_of_other_pole_pairs(void)
+{
+    static const hci_harmonic DECLARED[] = {{4.0, 0.0, 0.05}, {12.0, 0.1, 0.0}};
+    record_holding(1200, 0.08, 0.1, 0.0);
+    machine.model.cogging = DECLARED;
+    machine.model.cogging_count = 2;
+    const hci_status status = diagnose(NULL);
+    machine.model.cogging_count = 0;
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, status);
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_UNKNOWN, diagnosis.verdict);
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_REJECTED, found("cogging")->verdict);
+    TEST_ASSERT_NOT_NULL(diagnosis.slip);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(diagnosis.slip, "pole pairs"), diagnosis.slip);
+}
+
 /* The current that turns a shaft slowly against a brake; the back-EMF is cosine_Nm_per_A of order 6 stronger.
  */
 static void record_brake(bool back, double brake_Nm, double cosine_Nm_per_A, double cogging_Nm)
@@ -401,6 +417,7 @@ int main(void)
     RUN_TEST(test_current_offset);
     RUN_TEST(test_noise_of_currents_is_no_sensor);
     RUN_TEST(test_holding_map);
+    RUN_TEST(test_holding_map_of_other_pole_pairs);
     RUN_TEST(test_back_emf_against_a_brake);
     RUN_TEST(test_ripple_beside_friction);
     RUN_TEST(test_iron_drag);

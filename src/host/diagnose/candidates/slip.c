@@ -111,16 +111,94 @@ static bool is_gone(const change *c)
     return sum < SAME * SAME * c->square;
 }
 
-const char *hci_slip_of_cogging(const hci_machine *machine, const hci_candidates *model)
+/* ---- other pole pairs ---- */
+
+/* An order with what the machine declares of it, or with what the model makes of it. */
+static double amplitude_at(const hci_machine *machine, const hci_candidates *model, double order, bool shown)
+{
+    const hci_candidate *x = candidate_at(model, order);
+    double sine = 0.0, cosine = 0.0;
+    for (size_t k = 0; k < machine->cogging_count; ++k) {
+        if (!(fabs(machine->cogging[k].order - order) < HCI_ORDER_TOLERANCE)) continue;
+        sine += machine->cogging[k].sine, cosine += machine->cogging[k].cosine;
+    }
+    if (x && x->count == 2) {
+        sine += shown ? x->term[0].value : x->declared[0];
+        cosine += shown ? x->term[1].value : x->declared[1];
+    }
+    return hypot(sine, cosine);
+}
+
+/* The amplitude that an order has where all declared ones stand at `ratio` times their orders. */
+static double scaled_amplitude(const hci_machine *machine, const hci_candidates *model, double order,
+                               double ratio)
+{
+    for (size_t k = 0; k < machine->cogging_count; ++k)
+        if (fabs(ratio * machine->cogging[k].order - order) < HCI_ORDER_TOLERANCE)
+            return amplitude_at(machine, model, machine->cogging[k].order, false);
+    return 0.0;
+}
+
+static bool is_scaled_by(const hci_machine *machine, const hci_candidates *model, double ratio)
+{
+    double left = 0.0, whole = 0.0;
+    for (size_t k = 0; k < machine->cogging_count; ++k) {
+        const double order = machine->cogging[k].order, there = ratio * order;
+        const double declared = amplitude_at(machine, model, order, false);
+        whole += declared * declared;
+        left += pow(amplitude_at(machine, model, there, true) - declared, 2.0);
+        left += pow(
+            amplitude_at(machine, model, order, true) - scaled_amplitude(machine, model, order, ratio), 2.0);
+    }
+    return whole > 0.0 && left < SAME * SAME * whole;
+}
+
+static double largest_order(const hci_machine *machine)
+{
+    double order = 0.0, largest = 0.0;
+    for (size_t k = 0; k < machine->cogging_count; ++k) {
+        const double square = square_of(&machine->cogging[k]);
+        if (!(square > largest)) continue;
+        largest = square;
+        order = machine->cogging[k].order;
+    }
+    return order;
+}
+
+/* Whether every declared amplitude stands at another order, all in one ratio, and no longer at its own. */
+static bool is_scaled(const hci_machine *machine, const hci_candidates *model)
+{
+    const double order = largest_order(machine);
+    for (size_t k = 0; k < model->count && order > 0.0; ++k) {
+        const hci_candidate *x = &model->candidate[k];
+        if (!x->in || !is_cogging(x->type) || x->count != 2) continue;
+        if (fabs(x->term[0].order - order) < HCI_ORDER_TOLERANCE) continue;
+        if (is_scaled_by(machine, model, x->term[0].order / order)) return true;
+    }
+    return false;
+}
+
+const char *hci_slip_of_cogging(const hci_machine *machine, const hci_candidates *model, bool held)
 {
     change c;
+    if (is_scaled(machine, model))
+        return held ? "The holding tests show the declared cogging torque with its amplitudes at other "
+                      "orders, "
+                      "all in one ratio, and nothing at its own, as of other pole pairs"
+                    : "The runs without a current show the declared cogging torque with its amplitudes at "
+                      "other orders, all in one ratio, and nothing at its own, as of other pole pairs";
     if (!change_find(machine, model, &c)) return NULL;
     if (is_gone(&c))
-        return "The runs without a current show nothing at the orders of the declared cogging torque, as of "
-               "other pole pairs or another motor";
+        return held ? "The holding tests show nothing at the orders of the declared cogging torque, as of "
+                      "other "
+                      "pole pairs or another motor"
+                    : "The runs without a current show nothing at the orders of the declared cogging torque, "
+                      "as of other pole pairs or another motor";
     if (is_turned(&c))
-        return "The runs without a current show the declared cogging torque with another sign, direction or "
-               "zero, and no other one";
+        return held ? "The holding tests show the declared cogging torque with another sign, direction or "
+                      "zero, and no other one"
+                    : "The runs without a current show the declared cogging torque with another sign, "
+                      "direction or zero, and no other one";
     return NULL;
 }
 

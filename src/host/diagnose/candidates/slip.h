@@ -5,14 +5,16 @@
  *
  *     T(θ) = ± Σ S sin n(±θ + δ) + C cos n(±θ + δ).
  *
- * Another number of pole pairs, and another motor, leave nothing at the declared orders. */
+ * Another number of pole pairs, and another motor, leave nothing at the declared orders; the former has every
+ * amplitude at another order, the true pole pairs over the declared ones times its own. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_CANDIDATES_SLIP_H
 #define HCI_SRC_HOST_DIAGNOSE_CANDIDATES_SLIP_H
 
 #include "host/diagnose/candidates/candidates.h"
 
-/* What it looks like, in words; NULL: like none, or nothing is declared. Static. */
-const char *hci_slip_of_cogging(const hci_machine *machine, const hci_candidates *model);
+/* What it looks like, in words; NULL: like none, or nothing is declared. held: the model is of currents that
+ * hold the shaft, and not of torques without a current. Static. */
+const char *hci_slip_of_cogging(const hci_machine *machine, const hci_candidates *model, bool held);
 
 /* The same of a torque with the opposite sign. */
 const char *hci_slip_of_load(void);

@@ -398,6 +398,31 @@ static hci_status model_find(hci_search *s, hci_attribution *a, hci_note *note)
     return status ? status : hci_search_settle(s, a, note);
 }
 
+/* ---- holding tests ---- */
+
+static bool any_is_held(const hci_regression *e)
+{
+    for (size_t r = 0; r < e->samples->run_count; ++r)
+        if (e->use[r] && e->runs[r].torque_source == HCI_TORQUE_HOLDING) return true;
+    return false;
+}
+
+/* The cogging torque that a slip makes leaves: what was declared is there, or nothing of it is. */
+static hci_status held_judge(hci_search *s, hci_attribution *a, hci_note *note)
+{
+    if (a->slip || a->unknown || hci_search_is_over(s) || !any_is_held(s->regression)) return HCI_OK;
+    a->slip = hci_slip_of_cogging(s->regression->machine, &a->model.candidates, true);
+    if (!a->slip) return HCI_OK;
+    a->unknown = true;
+    for (size_t r = 0; r < a->types; ++r)
+        if (a->verdict[r].type->any_phase && a->verdict[r].type->propose_coenergy)
+            hci_candidates_remove_type(&a->model.candidates, a->verdict[r].type);
+    hci_status status = hci_search_residual(s, &a->model.candidates, note);
+    const double left_Nm = hci_search_residual_rms(s), noise_Nm = hci_search_noise_rms(s);
+    a->unexplained_Nm = sqrt(fmax(0.0, left_Nm * left_Nm - noise_Nm * noise_Nm));
+    return status;
+}
+
 /* Goes on from what another search has found. */
 static hci_status start_take(const hci_search *s, hci_attribution *a, hci_note *note)
 {
@@ -417,6 +442,7 @@ static hci_status attribute(hci_search *s, hci_attribution *a, bool *no_load, hc
     if (!status && !a->not_searched) status = slip_judge(s, a, note);
     if (!status && !a->unknown) status = start_take(s, a, note);
     if (!status && !a->unknown) status = model_find(s, a, note);
+    if (!status) status = held_judge(s, a, note);
     if (!status) status = certain_stays(s, a, no_load, note);
     if (!status && !a->not_searched) status = verdicts(s, a, note);
     if (!status) status = hci_search_stability(s, a, note);

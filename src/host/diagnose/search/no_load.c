@@ -158,7 +158,7 @@ static hci_status of_runs(hci_search *s, hci_attribution *a, hci_note *note)
     s->no_current = false;
     if (!status && found) {
         unproven_leave(s->regression, &a->model.candidates);
-        a->slip = hci_slip_of_cogging(s->regression->machine, &a->model.candidates);
+        a->slip = hci_slip_of_cogging(s->regression->machine, &a->model.candidates, false);
         return hci_fitted_model_copy(&a->model, &a->no_load, note);
     }
     hci_fitted_model_release(&a->model);

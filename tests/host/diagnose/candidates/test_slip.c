@@ -44,7 +44,7 @@ static void show_ahead(double ahead_rad, double sign, double way)
 
 static const char *slip(void)
 {
-    return hci_slip_of_cogging(&MACHINE, &model);
+    return hci_slip_of_cogging(&MACHINE, &model, false);
 }
 
 static void is_slip(const char *part)
@@ -98,6 +98,41 @@ static void test_nothing_at_its_orders(void)
     is_slip("pole pairs");
 }
 
+/* Half the pole pairs that are declared: 6 stands at 3, and 12 at 6. */
+static void test_half_the_orders(void)
+{
+    show(3.0, 0.5, 0.2);
+    show(6.0, -0.1, 0.15);
+    show(12.0, 0.0, 0.0);
+    is_slip("in one ratio");
+    TEST_ASSERT_NOT_NULL(strstr(hci_slip_of_cogging(&MACHINE, &model, true), "The holding tests"));
+}
+
+/* 7 for 6, from another zero. */
+static void test_other_orders_from_another_zero(void)
+{
+    show(7.0, -0.2, 0.5);
+    show(14.0, 0.18, 0.0);
+    show(6.0, 0.0, 0.0);
+    show(12.0, 0.0, 0.0);
+    is_slip("in one ratio");
+}
+
+/* The declared one stays, and another one of its size comes. */
+static void test_beside_the_declared_orders_is_none(void)
+{
+    show(3.0, 0.5, 0.2);
+    TEST_ASSERT_NULL(slip());
+}
+
+/* Half of it moves. */
+static void test_a_part_of_it_at_another_order_is_none(void)
+{
+    show(3.0, 0.25, 0.1);
+    show(6.0, 0.25, 0.1);
+    TEST_ASSERT_NULL(slip());
+}
+
 static void test_a_cogging_torque_of_its_own_is_none(void)
 {
     show(4.0, 0.5, 0.2);
@@ -129,6 +164,10 @@ int main(void)
     RUN_TEST(test_a_little_ahead_is_none);
     RUN_TEST(test_orders_turned_by_themselves_are_none);
     RUN_TEST(test_nothing_at_its_orders);
+    RUN_TEST(test_half_the_orders);
+    RUN_TEST(test_other_orders_from_another_zero);
+    RUN_TEST(test_beside_the_declared_orders_is_none);
+    RUN_TEST(test_a_part_of_it_at_another_order_is_none);
     RUN_TEST(test_a_cogging_torque_of_its_own_is_none);
     RUN_TEST(test_another_share_is_none);
     RUN_TEST(test_the_largest_order_decides);
