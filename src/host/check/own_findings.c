@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "host/check/data/dead_torque.h"
 #include "host/check/data/ripple_shift.h"
 #include "host/check/relations.h"
 
@@ -199,7 +200,7 @@ static bool by_voltage(const run_zeros *z, const check_run *r, run_zero *out)
 static bool by_torque(const run_zeros *z, const check_run *r, run_zero *out)
 {
     const double per_A = torque_per_ampere(z, r), share = fabs(per_A) / z->most_Nm_per_A - BESIDE;
-    if (isnan(per_A)) return false;
+    if (isnan(per_A) || !hci_check_torque_stands_out(r)) return false;
     const check_vector i = hci_check_current_of(r, z->as, z->model), q = {0.0, per_A > 0.0 ? 1.0 : -1.0},
                        turn = hci_check_product(i, hci_check_conjugate(q));
     *out = (run_zero){r, atan2(turn.im, turn.re), acos(fmax(0.0, share)), 0.5 * SALIENT_rad};
@@ -325,10 +326,11 @@ static void say_shifted(const check_run *a, const check_run *b, const check_ripp
     char by[64] = "";
     if (shift->is_unique)
         snprintf(by, sizeof by, ", some %.0f degrees of a turn on", fabs(shift->shift_rad) * 180.0 / HCI_PI);
-    snprintf(f.words, sizeof f.words,
-             "the ripple in %.32s is that in %.32s, but at other places of the turn%.40s: the zero of the angle "
-             "has moved between them, as after a restart of the encoder",
-             name_of(b->path), name_of(a->path), by);
+    snprintf(
+        f.words, sizeof f.words,
+        "the ripple in %.32s is that in %.32s, but at other places of the turn%.40s: the zero of the angle "
+        "has moved between them, as after a restart of the encoder",
+        name_of(b->path), name_of(a->path), by);
     put_first(check, &f);
 }
 
@@ -459,9 +461,58 @@ static void add_sequence(const check_data *data, hci_check *check)
     put_first(check, &f);
 }
 
+/* ---- a torque that does not answer */
+
+/* In noise of a sample: by so much the torques differ that the declared machine makes. */
+#define WOULD_BE 20.0
+
+/* q-axis current as declared, in A; NAN where nothing tells. */
+static double q_current_of(const check_data *data, const check_run *r, const check_interpretation *as,
+                           const check_model *m)
+{
+    if (hci_check_has_vector_current(data, r)) return hci_check_current_of(r, as, m).im;
+    return hci_check_has_current(data, r) ? (double)NAN : 0.0;
+}
+
+/* The first recording with a current where all torques are noise; NULL: one answers, or too little flows for
+ * that to be seen. */
+static const check_run *find_dead_torque(const check_data *data)
+{
+    const check_interpretation as = hci_check_as_declared();
+    const check_model m = hci_check_model_of(data, &as);
+    const check_run *first = NULL;
+    double noise_Nm, least_A = INFINITY, most_A = -INFINITY;
+    if (!hci_check_torques_are_noise(data, &noise_Nm)) return NULL;
+    for (size_t k = 0; k < data->runs; ++k) {
+        const check_run *r = &data->run[k];
+        if (!hci_check_torque_is_measured(r)) continue;
+        const double q_A = q_current_of(data, r, &as, &m);
+        if (isnan(q_A)) return NULL;
+        if (!first && hci_check_has_vector_current(data, r)) first = r;
+        least_A = fmin(least_A, q_A);
+        most_A = fmax(most_A, q_A);
+    }
+    return 1.5 * m.emf_Nm_per_A * (most_A - least_A) > WOULD_BE * noise_Nm ? first : NULL;
+}
+
+static void add_dead_torque(const check_data *data, hci_check *check)
+{
+    const check_run *r = find_dead_torque(data);
+    if (!r) return;
+    hci_check_finding f =
+        finding_at("dead_torque", &r->torque_cell, "the torques of recordings with different currents");
+    snprintf(f.words, sizeof f.words,
+             "the torque does not answer to the current: it is the same noise in all recordings (no cable, a "
+             "sensor without supply, another column), and tells nothing of the machine");
+    snprintf(f.should_be, sizeof f.should_be, "a torque that was measured, or no column of it");
+    check->findings = 0; /* of torques */
+    put_first(check, &f);
+}
+
 void hci_check_own_findings(const check_posterior *p, hci_check *check)
 {
     add_moved(p, check);
     add_sequence(p->data, check);
+    add_dead_torque(p->data, check);
     add_channel(p->data, check);
 }

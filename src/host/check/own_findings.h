@@ -1,6 +1,6 @@
 /* Slips that recordings prove by themselves, beside any reading of the tables: a channel of the currents that
- * is not as the two others, and an angle that has not one zero in all recordings. In: the data and the best
- * interpretation. Out: findings. */
+ * is not as the two others, an angle that has not one zero in all recordings, and a torque that is noise. In:
+ * the data and the best interpretation. Out: findings. */
 #ifndef HCI_SRC_HOST_CHECK_OWN_FINDINGS_H
 #define HCI_SRC_HOST_CHECK_OWN_FINDINGS_H
 

@@ -839,6 +839,52 @@ static void expect_first(const char *slip, const char *words)
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(check.finding[0].words, words), check.finding[0].words);
 }
 
+static uint64_t torque_seed = 5;
+MISTAKE(noise_for_torque, x->torque_Nm = 0.02 + 0.01 * ref_normal(&torque_seed))
+MISTAKE(noise_and_a_hundredth, x->torque_Nm = 0.01 * x->torque_Nm + 0.01 * ref_normal(&torque_seed))
+MISTAKE(noise_and_torque, x->torque_Nm += 0.01 * ref_normal(&torque_seed))
+
+/* Five currents, both signs; the torque of the first has its own mistake. */
+static void check_five(mistake *first, mistake *rest)
+{
+    static const char *const NAME[] = {"0.csv", "1.csv", "2.csv", "3.csv", "4.csv"};
+    static const double Q_A[] = {10.0, -10.0, 0.0, 5.0, -5.0};
+    static const char *run[5];
+    write_machine(EMF_ALONE, "amplitude_Nm_per_A", 0.1, 0.0);
+    for (int j = 0; j < 5; ++j) {
+        run[j] = path[paths];
+        write_run(NAME[j], NO_VOLTAGES, 0.0, Q_A[j], j == 0 ? first : rest);
+    }
+    hci_check_files(files_root, run, 5, &(hci_run_options){0}, &check, &note);
+}
+
+/* Noise tells no zero of the angle, and no other slip. */
+static void test_a_torque_that_does_not_answer(void)
+{
+    check_five(noise_for_torque, noise_for_torque);
+    expect_first("dead_torque", "does not answer to the current");
+}
+
+static bool has_finding(const char *slip)
+{
+    for (size_t k = 0; k < check.findings; ++k)
+        if (strcmp(check.finding[k].slip, slip) == 0) return true;
+    return false;
+}
+
+/* In another unit, or in one of the recordings, it answers. */
+static void test_a_torque_that_answers(void)
+{
+    static mistake *const FIRST[] = {noise_and_torque, noise_and_a_hundredth, noise_and_torque},
+                          *const REST[] = {noise_and_torque, noise_and_a_hundredth, noise_for_torque};
+    for (int k = 0; k < 3; ++k) {
+        check_five(FIRST[k], REST[k]);
+        TEST_ASSERT_FALSE(has_finding("dead_torque"));
+        TEST_ASSERT_FALSE(has_finding("angle_zero_moved"));
+        remove_files();
+    }
+}
+
 MISTAKE(b_and_c_swapped, const double b = x->i[1]; x->i[1] = x->i[2]; x->i[2] = b)
 
 static void test_phases_swapped_in_one_recording(void)
@@ -1455,6 +1501,8 @@ int main(void)
     RUN_TEST(test_a_sensor_is_no_other_channel);
     RUN_TEST(test_a_zero_that_is_another_one);
     RUN_TEST(test_a_current_at_another_angle_is_no_other_zero);
+    RUN_TEST(test_a_torque_that_does_not_answer);
+    RUN_TEST(test_a_torque_that_answers);
     RUN_TEST(test_phases_swapped_in_one_recording);
     RUN_TEST(test_phases_in_another_order_name_their_columns);
     RUN_TEST(test_radians_under_a_name_of_degrees);
