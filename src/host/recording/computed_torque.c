@@ -23,13 +23,20 @@ static double largest_of(const double *x, size_t n)
 
 #define STILL 1e-3 /* of the currents: less is rounding */
 
+/* Other than 0, over the angle. */
+static bool is_one_number(const hci_run *run)
+{
+    if (run->count < LEAST || run->theta_m_rad == NULL || !(fabs(run->torque_Nm[0]) > 0.0)) return false;
+    for (size_t k = 1; k < run->count; ++k)
+        if (run->torque_Nm[k] < run->torque_Nm[0] || run->torque_Nm[k] > run->torque_Nm[0]) return false;
+    return true;
+}
+
 bool hci_torque_is_typed(const hci_run *run)
 {
     double mean = 0.0, square = 0.0, size = 0.0;
     const double share = 1.0 / (double)run->count;
-    if (run->count < LEAST || run->theta_m_rad == NULL || !(fabs(run->torque_Nm[0]) > 0.0)) return false;
-    for (size_t k = 1; k < run->count; ++k)
-        if (run->torque_Nm[k] < run->torque_Nm[0] || run->torque_Nm[k] > run->torque_Nm[0]) return false;
+    if (!is_one_number(run)) return false;
     for (size_t k = 0; k < run->count; ++k) {
         const hci_dq i_A = hci_run_dq(run, run->pole_pairs, k);
         mean += share * i_A.q;
@@ -40,7 +47,7 @@ bool hci_torque_is_typed(const hci_run *run)
 }
 
 #define SAME    1e-9 /* of a torque: one number */
-#define ANOTHER 0.1  /* of the larger current */
+#define ANOTHER 0.1  /* of the largest current of the list */
 
 static double mean_size_of(const hci_run *run)
 {
@@ -50,12 +57,60 @@ static double mean_size_of(const hci_run *run)
     return fabs(sum_A) / (double)run->count;
 }
 
-static bool is_at_one_end(const hci_run *a, const hci_run *b)
+static double largest_size_of(const hci_run *runs, size_t count)
 {
-    const double end_Nm = fabs(a->torque_typed_Nm), i_A = mean_size_of(a), j_A = mean_size_of(b);
+    double most_A = 0.0;
+    for (size_t k = 0; k < count; ++k)
+        most_A = fmax(most_A, mean_size_of(&runs[k]));
+    return most_A;
+}
+
+static bool is_at_another(const hci_run *a, const hci_run *b, double most_A)
+{
+    return fabs(mean_size_of(a) - mean_size_of(b)) > ANOTHER * most_A;
+}
+
+/* One number that another run has as well, where that was typed, or at another current. */
+static bool is_typed_beside(const hci_run *a, const hci_run *b, double most_A)
+{
+    const double number_Nm = a->torque_Nm[0];
+    const bool counts = b->torque_is_typed || (b->torque_Nm != NULL && is_one_number(b));
+    if (!counts) return false;
+    const double other_Nm = b->torque_is_typed ? b->torque_typed_Nm : b->torque_Nm[0];
+    if (fabs(other_Nm - number_Nm) > SAME * fabs(number_Nm)) return false;
+    return b->torque_is_typed || is_at_another(a, b, most_A);
+}
+
+static void typed_leave(hci_run *run)
+{
+    hci_note_add(&run->remark,
+                 "the torque is %.6g N·m in every row, as in other recordings: typed, or of a sensor that "
+                 "stands still, and not measured. It tells the mean alone and is not used",
+                 run->torque_Nm[0]);
+    run->torque_is_typed = true;
+    run->torque_typed_Nm = run->torque_Nm[0];
+    run->torque_source = HCI_TORQUE_NONE;
+    hci_memory_free(run->torque_Nm);
+    run->torque_Nm = NULL;
+}
+
+void hci_torques_typed_leave(hci_run *runs, size_t count)
+{
+    const double most_A = largest_size_of(runs, count);
+    for (size_t k = 0; k < count; ++k) {
+        bool typed = false;
+        if (runs[k].torque_source != HCI_TORQUE_MEASURED || !is_one_number(&runs[k])) continue;
+        for (size_t j = 0; j < count && !typed; ++j)
+            typed = j != k && is_typed_beside(&runs[k], &runs[j], most_A);
+        if (typed) typed_leave(&runs[k]);
+    }
+}
+
+static bool is_at_one_end(const hci_run *a, const hci_run *b, double most_A)
+{
+    const double end_Nm = fabs(a->torque_typed_Nm);
     return a->torque_is_typed && b->torque_is_typed && end_Nm > 0.0 &&
-           fabs(fabs(b->torque_typed_Nm) - end_Nm) <= SAME * end_Nm &&
-           fabs(i_A - j_A) > ANOTHER * fmax(i_A, j_A);
+           fabs(fabs(b->torque_typed_Nm) - end_Nm) <= SAME * end_Nm && is_at_another(a, b, most_A);
 }
 
 static const char *file_of(const char *path)
@@ -66,9 +121,10 @@ static const char *file_of(const char *path)
 
 void hci_torques_at_one_end_tell(hci_run *runs, size_t count)
 {
+    const double most_A = largest_size_of(runs, count);
     for (size_t k = 0; k < count; ++k)
         for (size_t j = 0; j < count && runs[k].torque_is_typed; ++j) {
-            if (j == k || !is_at_one_end(&runs[k], &runs[j])) continue;
+            if (j == k || !is_at_one_end(&runs[k], &runs[j], most_A)) continue;
             runs[k].torque_is_clipped = true;
             hci_note_add(&runs[k].remark,
                          "%.60s has the torque %.6g N·m at another current: both are the end of the torque "

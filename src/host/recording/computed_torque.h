@@ -19,6 +19,12 @@ bool hci_torque_is_of_current(const double *torque_Nm, const double *iq_A, size_
  * has noise. Fewer than 16 samples say nothing. O(samples). */
 bool hci_torque_is_typed(const hci_run *run);
 
+/* Frees the torques of a list that are one number other than 0 in every row, as in another run where it was
+ * typed (above), or whose mean i_q is another one by a tenth of the largest: no machine makes the same torque
+ * of two currents, and the current of a steady run varies too little to tell by itself. O(runs x samples +
+ * runs²). */
+void hci_torques_typed_leave(hci_run *runs, size_t count);
+
 /* Says of runs whose torque is one number that it is the end of a sensor, where another current has the same
  * number, or the other sign of it. O(samples x runs of such a torque). */
 void hci_torques_at_one_end_tell(hci_run *runs, size_t count);

@@ -304,6 +304,7 @@ hci_status hci_runs_read(const char *path, const hci_runs_options *options, hci_
         status = check_found(&l);
     else if (l.run.columns_found != NULL)
         status = refuse_absent(&l, status);
+    if (!status) hci_torques_typed_leave(runs->run, runs->count);
     if (!status) hci_torques_at_one_end_tell(runs->run, runs->count);
     if (!status) status = hci_estimated_torques_leave(runs->run, runs->count, &options->run, note);
     if (!status) status = hci_untold_torques_join(runs->run, runs->count, &options->run, note);

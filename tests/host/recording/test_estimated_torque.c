@@ -175,6 +175,53 @@ static void test_one_number_at_two_currents_is_the_end_of_a_sensor(void)
     }
 }
 
+/* One number beside three phase currents of a mean i_q that varies by a share of it. */
+static void number_write(const char *name, double torque_Nm, double mean_A, double varies)
+{
+    FILE *file = fopen(files_path(name), "w");
+    TEST_ASSERT_NOT_NULL(file);
+    fprintf(file, "time_s,theta_m_rad,ia_A,ib_A,ic_A,torque_Nm\n");
+    for (size_t k = 0; k < N; ++k) {
+        const double theta_m = 0.0063 * (double)k, q_A = mean_A * (1.0 + varies * ref_normal(&seed));
+        fprintf(file, "%.4f,%.6f", 2e-3 * (double)k, theta_m);
+        for (int phase = 0; phase < 3; ++phase)
+            fprintf(file, ",%.6f", q_A * sin(POLE_PAIRS * theta_m - phase * 2.0943951023931953));
+        fprintf(file, ",%.6f\n", torque_Nm);
+    }
+    fclose(file);
+}
+
+/* Of currents that vary by less than a thousandth another recording tells; its own number is another one's.
+ */
+static void test_one_number_of_steady_currents_is_typed(void)
+{
+    static const double MEAN_A[][RUNS] = {{5.0, 8.0, 3.0}, {5.0, 8.0, 8.0}}, VARIES[] = {1e-4, 1e-2};
+    for (size_t j = 0; j < 2; ++j) {
+        for (int k = 0; k < RUNS; ++k)
+            number_write(NAMES[k], 1.25, MEAN_A[j][k], k == 2 ? VARIES[j] : 1e-4);
+        list_of_runs_read(NAN);
+        for (size_t k = 0; k < RUNS; ++k) {
+            TEST_ASSERT_TRUE(runs.run[k].torque_is_typed);
+            TEST_ASSERT_EQUAL(HCI_TORQUE_NONE, runs.run[k].torque_source);
+            TEST_ASSERT_NULL(runs.run[k].torque_Nm);
+        }
+    }
+}
+
+/* Of one current, of none, and other numbers of other currents: means, that nobody need have typed. */
+static void test_means_of_steady_currents_stay(void)
+{
+    static const double TORQUE_Nm[][RUNS] = {{1.25, 1.25, 1.25}, {-0.02, -0.02, 1.25}, {1.25, 2.0, 0.75}},
+                        MEAN_A[][RUNS] = {{5.0, 5.1, 5.0}, {0.002, 0.001, 5.0}, {5.0, 8.0, 3.0}};
+    for (size_t j = 0; j < 3; ++j) {
+        for (int k = 0; k < RUNS; ++k)
+            number_write(NAMES[k], TORQUE_Nm[j][k], MEAN_A[j][k], 1e-4);
+        list_of_runs_read(NAN);
+        for (size_t k = 0; k < RUNS; ++k)
+            TEST_ASSERT_EQUAL(HCI_TORQUE_MEASURED, runs.run[k].torque_source);
+    }
+}
+
 static void test_a_measured_torque_stays(void)
 {
     static const made_by BY[] = {MEASURED, LAGS};
@@ -197,6 +244,8 @@ int main(void)
     RUN_TEST(test_a_torque_that_follows_the_noise_of_a_steady_current_is_computed);
     RUN_TEST(test_beside_a_small_cogging_it_is_not);
     RUN_TEST(test_one_number_at_two_currents_is_the_end_of_a_sensor);
+    RUN_TEST(test_one_number_of_steady_currents_is_typed);
+    RUN_TEST(test_means_of_steady_currents_stay);
     RUN_TEST(test_a_measured_torque_stays);
     return UNITY_END();
 }
