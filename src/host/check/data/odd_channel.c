@@ -16,6 +16,19 @@
 /* Two columns that differ by less than this share hold the same. */
 #define THE_SAME 0.1
 
+/* Currents whose rms about their means is less than this share of the whole stand, as of a rotor that is
+ * held: how they vary is noise and rounding, and b and c in parallel are the same. */
+#define STANDS 0.05
+
+static bool stand(const double *const column[3], size_t count, double gram[3][3])
+{
+    double whole = 0.0;
+    for (int s = 0; s < 3; ++s)
+        for (size_t k = 0; k < count; ++k)
+            whole += column[s][k] * column[s][k] / (double)count;
+    return gram[0][0] + gram[1][1] + gram[2][2] < STANDS * STANDS * whole;
+}
+
 /* Mean products about the means, so that an offset of a sensor does not count. */
 static void products(const double *const column[3], size_t count, double gram[3][3])
 {
@@ -58,12 +71,14 @@ static bool is_nothing(double gram[3][3], int phase)
     return gram[phase][phase] < NOTHING * NOTHING * 0.5 * others;
 }
 
-/* Of the two others than `phase`. */
+/* The two others than `phase`, unless they share the way back of its current: then it is a multiple of their
+ * sum. */
 static bool are_twins(double gram[3][3], int phase)
 {
     const int a = (phase + 1) % 3, b = (phase + 2) % 3;
     const double both = gram[a][a] + gram[b][b];
-    return both > 0.0 && both - 2.0 * gram[a][b] < THE_SAME * THE_SAME * both;
+    const bool alike = both > 0.0 && both - 2.0 * gram[a][b] < THE_SAME * THE_SAME * both;
+    return alike && !(sum_with(gram, phase, gain_of(gram, phase)) < LEFT);
 }
 
 static bool is_a_sensor(double gain)
@@ -76,6 +91,7 @@ check_odd_channel hci_check_odd_channel(const double *const column[3], size_t co
     check_odd_channel best = {CHECK_CHANNELS_AGREE, 0, 1.0};
     double gram[3][3];
     products(column, count, gram);
+    if (stand(column, count, gram)) return best;
     const double sum = sum_with(gram, 0, 1.0);
     double least = LEFT * sum;
     if (!(sum > LEAST_SUM)) return best;
