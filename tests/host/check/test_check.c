@@ -865,6 +865,15 @@ static void test_a_torque_that_does_not_answer(void)
     expect_first("dead_torque", "does not answer to the current");
 }
 
+MISTAKE(one_torque, x->torque_Nm = 1.25)
+
+/* Of currents that do not vary, beside each other: neither a zero of the angle nor a gain is told by it. */
+static void test_one_number_for_torque(void)
+{
+    check_five(one_torque, one_torque);
+    TEST_ASSERT_EQUAL(0, check.findings);
+}
+
 static bool has_finding(const char *slip)
 {
     for (size_t k = 0; k < check.findings; ++k)
@@ -1503,6 +1512,7 @@ int main(void)
     RUN_TEST(test_a_current_at_another_angle_is_no_other_zero);
     RUN_TEST(test_a_torque_that_does_not_answer);
     RUN_TEST(test_a_torque_that_answers);
+    RUN_TEST(test_one_number_for_torque);
     RUN_TEST(test_phases_swapped_in_one_recording);
     RUN_TEST(test_phases_in_another_order_name_their_columns);
     RUN_TEST(test_radians_under_a_name_of_degrees);

@@ -128,6 +128,7 @@ typedef struct {
     double speed_change;                   /* from the first to the last fifth, over the mean */
     double torque_mean, torque_variance;   /* mean, and mean square about it */
     double torque_at_speed;                /* mean of torque × speed over the mean speed */
+    double typed_torque;                   /* one number in every row, that was not measured; 0: none */
     double current_square, voltage_square; /* mean |x|² */
     check_vector dq;                       /* mean of recorded i_d + j i_q */
     double product_dq;                     /* mean of i_d i_q as recorded */

@@ -135,6 +135,7 @@ static hci_status run_take(const hci_csv *csv, check_data *data, check_run *file
     if (!status) status = torque_doubt(&s, data, file, &why, note);
     if (!status && why) {
         hci_note_add(remark, "%s", why);
+        if (hci_peak_to_peak(s.torque, s.count) <= 0.0) file->typed_torque = s.torque[0];
         s.torque = NULL;
     }
     if (!status) file->current_way = current_way(&s, file);
@@ -184,6 +185,54 @@ static double no_current(const check_data *data)
     for (size_t k = 0; k < data->runs; ++k)
         most = fmax(most, sqrt(data->run[k].current_square)); /* of NAN and a number the number */
     return CHECK_NO_CURRENT * most;
+}
+
+/* ---- one number for torque */
+
+#define SAME    1e-9 /* of a torque: one number */
+#define ANOTHER 0.1  /* of the largest current */
+
+static bool is_one_number(const check_run *r)
+{
+    return r->has_torque && r->torque && r->torque_variance <= pow(SAME * r->torque_mean, 2.0);
+}
+
+/* One number that another recording has as well, where that was typed, or at another current. */
+static bool is_typed_beside(const check_run *a, const check_run *b, double most_A)
+{
+    const bool is_typed = fabs(b->typed_torque) > 0.0;
+    const double other_Nm = is_typed ? b->typed_torque : b->torque_mean;
+    if (strcmp(a->path, b->path) == 0 || !(is_typed || is_one_number(b)) ||
+        fabs(other_Nm - a->torque_mean) > SAME * fabs(a->torque_mean))
+        return false;
+    return is_typed || fabs(sqrt(a->current_square) - sqrt(b->current_square)) > ANOTHER * most_A;
+}
+
+static void typed_find(check_data *data)
+{
+    double most_A = 0.0;
+    for (size_t k = 0; k < data->runs; ++k)
+        most_A = fmax(most_A, sqrt(data->run[k].current_square));
+    for (size_t k = 0; k < data->runs; ++k)
+        for (size_t j = 0; j < data->runs && is_one_number(&data->run[k]); ++j)
+            if (is_typed_beside(&data->run[k], &data->run[j], most_A))
+                data->run[k].typed_torque = data->run[k].torque_mean;
+}
+
+static void typed_leave(const char *const *path, size_t count, check_data *data, hci_note *remark)
+{
+    typed_find(data);
+    for (size_t k = 0; k < data->runs; ++k) {
+        check_run *r = &data->run[k];
+        if (!(fabs(r->typed_torque) > 0.0) || !r->has_torque) continue;
+        r->has_torque = false;
+        hci_memory_free(r->torque);
+        r->torque = NULL;
+        for (size_t j = 0; j < count && (k == 0 || r->path != data->run[k - 1].path); ++j)
+            if (path[j] == r->path)
+                hci_note_add(&remark[j], "the torque is one number in every row, as in another recording: "
+                                         "typed, or of a sensor that stands still, and it is not compared");
+    }
 }
 
 /* ---- the zero of the torque sensor */
@@ -239,6 +288,7 @@ hci_status hci_check_runs_read(const char *const *path, size_t count, const hci_
     for (size_t k = 0; k < count && !status; ++k)
         status = run_read(path[k], reading, data, &remark[k], note);
     data->no_current_A = no_current(data);
+    if (!status) typed_leave(path, count, data, remark);
     if (!status) take_torque_zero(data);
     return status;
 }
