@@ -21,6 +21,7 @@ static const char *verdict_of(const cli_tuning *t)
            : t->has_no_angle                                       ? "not enough in the logs"
            : t->has_unsteady                                       ? "the shaft sticks and slips"
            : cli_tune_all_torque_clipped(t)                        ? "the torque is clipped"
+           : cli_tune_has_gap(t)                                   ? "not enough in the logs"
            : t->has_alias                                          ? "the samples lie too far apart"
            : t->size == CLI_TUNE_EXCESS                            ? "the size is not believable"
            : t->inertia_share > 0.0                                ? "the inertia is not believable"

@@ -86,6 +86,11 @@ bool cli_tune_is_short(const cli_tuning *t)
     return t->turns * t->declared.model.pole_pairs >= LEAST_ARC && t->turns < WHOLE;
 }
 
+bool cli_tune_has_gap(const cli_tuning *t)
+{
+    return t->has_alias && t->highest_order >= cli_tune_order_of_slots(t);
+}
+
 bool cli_tune_is_coarse(const cli_tuning *t)
 {
     const double twice = SLOT_MULTIPLE * cli_tune_order_of_slots(t);

@@ -22,6 +22,10 @@ void cli_tune_cover_set(cli_tuning *tune);
  */
 bool cli_tune_is_short(const cli_tuning *tune);
 
+/* Whether the order of slots and poles was not looked at since a part of the turn has no samples, although
+ * those that there are lie close enough. */
+bool cli_tune_has_gap(const cli_tuning *tune);
+
 /* Whether orders that slots and poles make twice over, or order 12, lie beyond what the samples tell. */
 bool cli_tune_is_coarse(const cli_tuning *tune);
 

@@ -375,6 +375,9 @@ static const char *why_blocked(const cli_tuning *t)
     if (t->has_misfit)
         return "Angle, order or speed in the logs contradict each other, and no slip that is known explains "
                "it";
+    if (cli_tune_has_gap(t))
+        return "A small part of the turn has no samples, and the order of slots and poles is not told across "
+               "it";
     if (t->has_alias) return "Cogging torque of a higher order would look like one of a low order";
     if (t->has_standstill)
         return "The angle of the rotor does not change in the logs: the shaft stands, and one angle tells "

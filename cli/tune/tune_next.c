@@ -1,4 +1,5 @@
 #include "cli/tune/tune_next.h"
+#include "cli/tune/tune_cover.h"
 
 #include <math.h>
 
@@ -111,7 +112,7 @@ static const char *next_recording(const cli_tuning *t)
         return "Log what a torque sensor measures, at three currents (docs/measuring.md). Without a sensor: "
                "take the brake off, leave the column out, and turn the shaft slowly under position control, "
                "one "
-               "turn forward and one back, with angle and i_q.";
+               "turn forward and one back, or somewhat more, with angle and i_q.";
     if (!t->is_solved && !cli_tune_is_blocked(t) && !cli_tune_can_solve(t))
         return "Without a torque sensor: turn the shaft slowly under position control, one turn "
                "forward and one back, log angle and i_q, and give --holding. With one: turn it slowly "
@@ -143,7 +144,7 @@ static void say_next_turn(cli_tuning *t)
                        "matters.");
     else if (t->has_standstill)
         hci_tuning_say(r, HCI_TUNING_NEXT,
-                       "Turn the shaft slowly under position control, one turn forward and one back, and log "
+                       "Turn the shaft slowly under position control, 1.1 turns forward and back, and log "
                        "angle and i_q; if it did turn, the column that was read as the angle is not it.");
     else if (next_recording(t))
         hci_tuning_say(r, HCI_TUNING_NEXT, "%s", next_recording(t));
@@ -154,7 +155,12 @@ static void say_next_correction(cli_tuning *t)
 {
     hci_tuning *r = &t->tuning;
     const double order = cli_tune_order_of_slots(t);
-    if (t->has_alias)
+    if (cli_tune_has_gap(t))
+        hci_tuning_say(r, HCI_TUNING_NEXT,
+                       "Turn somewhat further than once round each way, such as 1.1 turns, so that the place "
+                       "at which the shaft "
+                       "starts and turns round is passed as well.");
+    else if (t->has_alias)
         hci_tuning_say(
             r, HCI_TUNING_NEXT,
             "Turn more slowly, or log more often: four samples or more in each period of order %.5g, "

@@ -97,6 +97,15 @@ static void say_missed_slots(cli_tuning *t)
         say_high_slots(t);
         return;
     }
+    if (cli_tune_has_gap(t)) {
+        hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                       "The cogging torque of slots and poles, order %.5g: %.4g of a turn has samples that "
+                       "are used (not those in "
+                       "which the shaft starts, waits or turns round), and across what is left orders above "
+                       "%.5g are not told.",
+                       cli_tune_order_of_slots(t), t->turns, t->cogging_reach);
+        return;
+    }
     hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
                    "The cogging torque of slots and poles, order %.5g: orders above %.5g were not looked "
                    "at, since the samples lie too far apart. Turn more slowly, or log more often.",

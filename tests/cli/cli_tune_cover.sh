@@ -54,4 +54,14 @@ bench held 692 8
 says 'orders above 10.4 were not looked at'
 check "the readings in a turn" grep -q '865 samples, .*, 86.[4-6] samples a turn' held/summary.json
 check "a bound of what a held torque does not show" [ "$(grep -c '(95 %)' "$work/stdout")" -eq 0 ]
+
+# ---- exactly once round each way: the rows of the start and of the turning point are not used, and leave a gap
+
+awk 'BEGIN { srand(3); print "time_s,theta_m_rad,iq_A"; w = 0.6283185; turn = 6.2831853; for (k = 0; k <= 21000; ++k) { t = 0.001 * k; half = 10.25
+    u = t < half ? t : 20.5 - t; if (u < 0) u = 0; x = u < 0.25 ? 0.5 * w / 0.25 * u * u : u < 10 ? w * (u - 0.125) : w * 9.875 + w * (u - 10) - 2 * w * (u - 10) * (u - 10)
+    if (x > turn) x = turn; way = u <= 0 ? 0 : t < half ? 1 : -1
+    printf "%.3f,%.6f,%.5f\n", t, 0.2 + x, 0.05 * way + 0.1 * sin(14 * x) + 0.3 * sin(84 * x + 0.4) + 0.01 * (rand() - 0.5) } }' >once.csv
+run 1 tune once.csv --pole-pairs 7 --kv 120 --slots 12 --inertia 1e-6 -o once
+says '^not enough in the logs: A small part of the turn has no samples' 'Turn somewhat further than once round each way, such as 1.1 turns'
+check "samples are called too few" [ "$(grep -c 'lie too far apart' once/summary.json)" -eq 0 ]
 finish
