@@ -27,8 +27,8 @@ static const char *verdict_of(const cli_tuning *t)
            : t->inertia_share > 0.0                                ? "the inertia is not believable"
            : t->has_standstill                                     ? "not enough in the logs"
            : !t->is_emitted                                        ? "not enough in the logs"
-           : cli_tune_is_missed(t)                                 ? "tuned, but not as wanted"
            : cli_tune_is_of_no_use(t) || cli_tune_is_never_seen(t) ? "a table of no use"
+           : cli_tune_is_missed(t)                                 ? "tuned, but not as wanted"
            : t->diagnosis.verdict == HCI_DIAGNOSIS_UNKNOWN         ? "tuned with what is certain"
                                                                    : "tuned, with something left open";
 }

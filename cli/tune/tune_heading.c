@@ -55,7 +55,9 @@ static void say_doubtful(const cli_tuning *t, double before_Nm, char *text, size
 {
     const cli_tune_ripple x = cli_tune_recorded_ripple(t);
     char current[32] = "without current";
-    snprintf(text, size, "%s, so what the table leaves of the ripple is not to be relied on",
+    snprintf(text, size,
+             "%s, so what the table leaves of the ripple is not to be relied on and may be more than a plain "
+             "sine leaves",
              isfinite(t->solution.expected.unbelievable_order)
                  ? "A back-EMF that is not believable is in the model"
              : t->diagnosis.verdict < HCI_DIAGNOSIS_PARTLY
