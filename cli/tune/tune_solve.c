@@ -116,41 +116,68 @@ static const double OF_RATED = 0.9;
 /* A mean torque below this share of what the currents could make is friction or the zero of the sensor. */
 static const double LEAST_LOAD = 0.02;
 
+/* A mean torque, and why it is that. */
+typedef struct {
+    double mean_Nm;
+    const char *why;
+} wanted_torque;
+
+static bool is_measured(const recorded *x)
+{
+    return x->mean_Nm > LEAST_LOAD * x->current_Nm && x->current_Nm > 0.0;
+}
+
+/* Of recordings with a load. */
+static wanted_torque of_load(const recorded *x)
+{
+    if (!is_measured(x))
+        return (wanted_torque){rounded(x->brake_Nm), "what the recorded current makes against its load"};
+    return (wanted_torque){
+        rounded(x->mean_Nm),
+        fabs(x->zero_Nm) > 0.0
+            ? "the largest mean torque of the recordings, less the zero of its sensor; up to there they tell "
+              "what to expect"
+            : "the largest mean torque of the recordings; up to there they tell what to expect"};
+}
+
+/* Of recordings without a load. rated_Nm, of_1_A_Nm: what the rated current and 1 A make. */
+static wanted_torque without_load(const recorded *x, double rated_Nm, double of_1_A_Nm)
+{
+    if (rated_Nm > 0.0)
+        return (wanted_torque){rounded(rated_Nm / 3.0),
+                               "what a third of the rated current makes; no recording has a load"};
+    if (x->current_Nm > 0.0)
+        return (wanted_torque){
+            rounded(x->current_Nm),
+            "what the largest recorded current makes; nothing is rated, and no recording has a load"};
+    return (wanted_torque){rounded(of_1_A_Nm),
+                           "what 1 A makes; nothing is rated, and no recording has a load"};
+}
+
+static wanted_torque wanted_of(const cli_tuning *t, const recorded *x, double rated_Nm)
+{
+    const double sheet_Nm = t->declared.rated_torque_Nm, load_Nm = is_measured(x) ? x->mean_Nm : x->brake_Nm;
+    if (t->arguments->given[TUNE_TORQUE])
+        return (wanted_torque){t->arguments->number[TUNE_TORQUE], "as asked for by --torque"};
+    if (sheet_Nm > 0.0 && !(load_Nm > 0.0 && load_Nm < sheet_Nm))
+        return (wanted_torque){sheet_Nm, "the rated torque"};
+    return load_Nm > 0.0 ? of_load(x) : without_load(x, rated_Nm, t->reading.run.torque_constant_Nm_per_A);
+}
+
 static void choose_torque(cli_tuning *t)
 {
-    const hci_machine_data *m = &t->declared;
-    const double rated_Nm = m->rated_current_A * t->reading.run.torque_constant_Nm_per_A;
-    const char *why;
+    const double rated_Nm = t->declared.rated_current_A * t->reading.run.torque_constant_Nm_per_A;
     const recorded x = recorded_of(t);
-    const bool is_measured = x.mean_Nm > LEAST_LOAD * x.current_Nm && x.current_Nm > 0.0;
-    const double mean_Nm = is_measured ? x.mean_Nm : x.brake_Nm, current_Nm = x.current_Nm;
-    t->has_load = is_measured;
-    if (t->arguments->given[TUNE_TORQUE])
-        t->mean_Nm = t->arguments->number[TUNE_TORQUE], why = "as asked for by --torque";
-    else if (m->rated_torque_Nm > 0.0 && !(mean_Nm > 0.0 && mean_Nm < m->rated_torque_Nm))
-        t->mean_Nm = m->rated_torque_Nm, why = "the rated torque";
-    else if (mean_Nm > 0.0)
-        t->mean_Nm = rounded(mean_Nm),
-        why =
-            is_measured && fabs(x.zero_Nm) > 0.0
-                ? "the largest mean torque of the recordings, less the zero of its sensor; up to there they "
-                  "tell what to expect"
-            : is_measured ? "the largest mean torque of the recordings; up to there they tell what to expect"
-                          : "what the recorded current makes against its load";
-    else if (rated_Nm > 0.0)
-        t->mean_Nm = rounded(rated_Nm / 3.0),
-        why = "what a third of the rated current makes; no recording has a load";
-    else if (!(current_Nm > 0.0))
-        t->mean_Nm = rounded(t->reading.run.torque_constant_Nm_per_A),
-        why = "what 1 A makes; nothing is rated, and no recording has a load";
-    else
-        t->mean_Nm = rounded(current_Nm),
-        why = "what the largest recorded current makes; nothing is rated, and no recording has a load";
-    const bool is_chosen = !t->arguments->given[TUNE_TORQUE] && !(m->rated_torque_Nm > 0.0);
-    if (is_chosen && rated_Nm > 0.0 && t->mean_Nm > OF_RATED * rated_Nm)
-        t->mean_Nm = rounded_down(OF_RATED * rated_Nm),
-        why = "nine tenths of what a sine of the rated current makes; what takes the ripple away heats, too";
-    hci_tuning_say(&t->tuning, HCI_TUNING_WANTED, "a torque without ripple of %.4g N·m: %s", t->mean_Nm, why);
+    wanted_torque wanted = wanted_of(t, &x, rated_Nm);
+    const bool is_chosen = !t->arguments->given[TUNE_TORQUE] && !(t->declared.rated_torque_Nm > 0.0);
+    if (is_chosen && rated_Nm > 0.0 && wanted.mean_Nm > OF_RATED * rated_Nm)
+        wanted = (wanted_torque){
+            rounded_down(OF_RATED * rated_Nm),
+            "nine tenths of what a sine of the rated current makes; what takes the ripple away heats, too"};
+    t->has_load = is_measured(&x);
+    t->mean_Nm = wanted.mean_Nm;
+    hci_tuning_say(&t->tuning, HCI_TUNING_WANTED, "a torque without ripple of %.4g N·m: %s", t->mean_Nm,
+                   wanted.why);
 }
 
 static hci_status read_corrected(cli_tuning *t, const char *machine, hci_note *note)
