@@ -1,5 +1,7 @@
 #include "host/diagnose/search/few_values.h"
 
+#include <math.h>
+
 #include "host/diagnose/search/belief.h"
 #include "host/diagnose/search/forward.h"
 
@@ -52,5 +54,87 @@ hci_status hci_search_few_values(hci_search *s, hci_fitted_model *model, bool *c
         }
         hci_fitted_model_release(&few);
     }
+    return status;
+}
+
+/* ---- a zero of the angle in place of turned waves ---- */
+
+/* Of the waves that the magnets make: back-EMF and cogging torque. */
+static bool is_of_magnets(const hci_effect_type *type)
+{
+    return type->propose_coenergy && (type->any_phase || type->is_small);
+}
+
+static const hci_effect_type *angle_zero(void)
+{
+    size_t k = 0;
+    const hci_effect_type *type;
+    while ((type = hci_effect_type_at(k)) != NULL && !type->is_angle_zero)
+        ++k;
+    return type;
+}
+
+/* The fundamental of the declared back-EMF, N·m/A. */
+static double declared_fundamental(const hci_machine *machine)
+{
+    for (size_t k = 0; k < machine->back_emf_count; ++k)
+        if (fabs(machine->back_emf[k].order - 1.0) < HCI_ORDER_TOLERANCE) return machine->back_emf[k].sine;
+    return 0.0;
+}
+
+/* The angle by which a model turns the fundamental of the back-EMF; 0 where it leaves its phase. */
+static double turned_by_rad(const hci_search *s, const hci_candidates *model)
+{
+    double wave[2] = {declared_fundamental(s->regression->machine), 0.0};
+    for (size_t k = 0; k < model->count; ++k) {
+        const hci_candidate *x = &model->candidate[k];
+        for (size_t j = 0; x->in && is_of_magnets(x->type) && !x->type->any_phase && j < x->count; ++j)
+            if (fabs(x->term[j].order - 1.0) < HCI_ORDER_TOLERANCE && x->term[j].parameter < 2)
+                wave[x->term[j].parameter] += x->term[j].value;
+    }
+    return atan2(-wave[1], wave[0]);
+}
+
+/* The model with a zero of the angle in place of a back-EMF that differs, and of a cogging torque unless it
+ * stays. */
+static hci_status turned_make(hci_search *s, const hci_fitted_model *model, bool cogging_stays,
+                              hci_fitted_model *turned, hci_note *note)
+{
+    hci_candidate x = {.type = angle_zero(), .count = 1, .in = true};
+    x.term[0] = (hci_effect_term){0, 0.0, turned_by_rad(s, &model->candidates), NAN};
+    hci_status status = hci_fitted_model_copy(model, turned, note);
+    for (size_t k = 0; !status && k < turned->candidates.count; ++k) {
+        hci_candidate *c = &turned->candidates.candidate[k];
+        c->in = c->in && (!is_of_magnets(c->type) || (cogging_stays && c->type->any_phase));
+    }
+    if (!status) status = hci_candidates_add(&turned->candidates, &x, note);
+    return status ? status : hci_search_fit(s, turned, note);
+}
+
+/* Puts that in place of the model where it is better, at once or after a few more effects. */
+static hci_status turned_try(hci_search *s, hci_fitted_model *model, bool cogging_stays, bool *better,
+                             hci_note *note)
+{
+    hci_fitted_model turned = {0};
+    hci_status status = turned_make(s, model, cogging_stays, &turned, note);
+    *better = !status && turned.fit.score < model->fit.score - HCI_AS_GOOD;
+    if (!status && !*better) status = steps_run(s, model, &turned, better, note);
+    if (!status && *better) {
+        hci_fitted_model_replace(model, &turned);
+        status = hci_search_renew(s, model, note);
+    }
+    hci_fitted_model_release(&turned);
+    return status;
+}
+
+hci_status hci_search_angle_zero(hci_search *s, hci_fitted_model *model, bool *changed, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    *changed = false;
+    if (turned_by_rad(s, &model->candidates) == 0.0 || s->no_current ||
+        hci_candidates_have(&model->candidates, angle_zero()))
+        return HCI_OK;
+    for (int stays = 0; stays < 2 && !*changed && !status; ++stays)
+        status = turned_try(s, model, stays, changed, note);
     return status;
 }

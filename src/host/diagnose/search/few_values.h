@@ -1,4 +1,5 @@
-/* A few effects of few values in place of a series in the currents.
+/* A few effects of few values in place of one of many: of a series in the currents, or of waves that are
+ * turned.
  *
  * A series describes nearly anything a little, so that one step takes it before two or three effects that
  * describe the recordings better together and each alone worse. */
@@ -10,5 +11,10 @@
 /* Looks for effects that make the series in a model superfluous. changed: out, whether it has been replaced.
  * HCI_ERROR_MEMORY. */
 hci_status hci_search_few_values(hci_search *search, hci_fitted_model *model, bool *changed, hci_note *note);
+
+/* Puts a zero of the angle in place of a back-EMF that is turned, and of the cogging torque beside it, where
+ * the recordings are described as well by that, with further effects of few values where these are needed.
+ * changed: out. Also where the search is over: a single fit then. HCI_ERROR_MEMORY. */
+hci_status hci_search_angle_zero(hci_search *search, hci_fitted_model *model, bool *changed, hci_note *note);
 
 #endif

@@ -85,11 +85,103 @@ static void test_few_values_stay(void)
     TEST_ASSERT_FALSE(changed);
 }
 
+/* ---- a zero of the angle ---- */
+
+#define ZERO_RAD 0.3 /* electrical, that is read too much */
+#define WAVES_NM 0.05
+
+/* Sensors read the angle too large; the machine has a sixth order of cogging torque, declared in sine (1) or
+ * not at all (0), and turned by itself besides. */
+static void record_turned(double zero_rad, double declared, double cosine_Nm)
+{
+    if (declared > 0.0) {
+        files_write(files_path("cogging.csv"), "order,amplitude_Nm,phase_rad\n6,0.05,0\n");
+        hci_machine_release(&machine);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_machine_read(files_root, &machine, &note), note.text);
+    }
+    for (int k = 0; k < POINTS; ++k) {
+        record(SAMPLES, &(point){SPEED[k], 0.0, 0.0, 0.0, 0.0});
+        for (size_t j = 0; j < SAMPLES; ++j) {
+            const double angle = P * run[k].theta_m_rad[j] - zero_rad;
+            rec_phases(D_A[k], Q_A[k], angle, run[k].i_A + 3 * j);
+            run[k].torque_Nm[j] += 1.5 * K_NM_PER_A * Q_A[k] + declared * WAVES_NM * sin(6.0 * angle) +
+                                   cosine_Nm * cos(6.0 * angle);
+        }
+    }
+    search_start();
+}
+
+/* The waves of a zero that is off, as orders by themselves. */
+static void waves_add(void)
+{
+    model_add("cogging", "sine", "cosine", 6.0);
+    model_add("back_emf", "sine", NULL, 1.0);
+    model_add("back_emf", "cosine", NULL, 1.0);
+    model_fit();
+}
+
+static bool is_a_zero_of_the_angle(void)
+{
+    bool changed = false;
+    waves_add();
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_prune(&search, &model, &note)); /* as before it in a search */
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_search_angle_zero(&search, &model, &changed, &note), note.text);
+    return changed;
+}
+
+static void zero_is_right(void)
+{
+    const hci_effect_term *zero = term_in(&model.candidates, "position_offset", "angle", 0.0);
+    TEST_ASSERT_DOUBLE_WITHIN(4.0 * zero->std_error, ZERO_RAD, zero->value);
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.0, zero->std_error);
+    TEST_ASSERT_FALSE(model_has("back_emf"));
+}
+
+/* 0.3 rad turn the sixth order by 1.8 rad: no small step from nothing finds that. */
+static void test_turned_waves_are_a_zero_of_the_angle(void)
+{
+    record_turned(ZERO_RAD, 1.0, 0.0);
+    TEST_ASSERT_TRUE(is_a_zero_of_the_angle());
+    zero_is_right();
+    TEST_ASSERT_FALSE(model_has("cogging"));
+}
+
+/* Also after the limit of the work: it is a single fit. */
+static void test_it_is_seen_when_the_search_is_over(void)
+{
+    record_turned(ZERO_RAD, 1.0, 0.0);
+    search.ended = HCI_WORK_LIMITED;
+    TEST_ASSERT_TRUE(is_a_zero_of_the_angle());
+    zero_is_right();
+}
+
+/* Cogging torque that the machine lacks in truth stays, in the angle as it should read. */
+static void test_the_cogging_torque_of_the_machine_stays(void)
+{
+    record_turned(ZERO_RAD, 0.0, WAVES_NM);
+    TEST_ASSERT_TRUE(is_a_zero_of_the_angle());
+    zero_is_right();
+    TEST_ASSERT_DOUBLE_WITHIN(0.05 * WAVES_NM, WAVES_NM,
+                              term_in(&model.candidates, "cogging", "cosine", 6.0)->value);
+}
+
+static void test_nothing_is_turned_where_the_angle_is_right(void)
+{
+    record_turned(0.0, 0.0, WAVES_NM);
+    TEST_ASSERT_FALSE(is_a_zero_of_the_angle());
+    TEST_ASSERT_TRUE(model_has("cogging"));
+    TEST_ASSERT_FALSE(model_has("position_offset"));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_pair_of_no_more_values_competes);
     RUN_TEST(test_a_series_gives_way_to_few_values);
     RUN_TEST(test_few_values_stay);
+    RUN_TEST(test_turned_waves_are_a_zero_of_the_angle);
+    RUN_TEST(test_it_is_seen_when_the_search_is_over);
+    RUN_TEST(test_the_cogging_torque_of_the_machine_stays);
+    RUN_TEST(test_nothing_is_turned_where_the_angle_is_right);
     return UNITY_END();
 }
