@@ -5,6 +5,7 @@
 
 #include "host/base/memory.h"
 #include "host/diagnose/candidates/coenergy_terms.h"
+#include "host/recording/rotor_frame.h"
 
 /* How far the series of the co-energy goes: the powers of a machine in which saturation was found and of one
  * without, the orders of recordings that tell all terms of it and of those that tell single ones. */
@@ -12,6 +13,7 @@ enum { MOST_POWER = 8, PLAIN_POWER = 4, MOST_ORDER = 96, PLAIN_ORDER = 48 };
 
 #define FIRST_OF_SLOTS 5.0  /* order of a back-EMF beside 6, the first of cogging torque and co-energy */
 #define WHOLE_TURN     0.9  /* electrical, of a run that tells orders by its samples */
+#define NO_TORQUE      1e-9 /* N·m, of a coefficient of 1 at 1 A */
 #define HALF           1e-6 /* of an order: half as many orders as samples is one too many */
 
 /* ---- how far ---- */
@@ -134,6 +136,24 @@ static double twin_of(const hci_coenergy_sizes *found, const hci_candidate *x)
     return size[place] > 0.0 ? x->coenergy_unit * size_of_power(found, x) : 0.0;
 }
 
+/* Whether a term of the co-energy makes no torque where the current is all i_q: looked at over a period of
+ * the lowest order. */
+static bool needs_direct(const hci_machine *machine, const hci_candidate *x, size_t j)
+{
+    enum { ANGLES = 7 };
+    hci_effect_term term = x->term[j];
+    const hci_effect effect = {x->type, &term, 1};
+    const hci_effects one = {&effect, 1};
+    term.value = 1.0;
+    for (int k = 0; x->coenergy_unit > 0.0 && k < ANGLES; ++k) {
+        const double theta_rad = 1.0 + k; /* no order has the same phase at all of them */
+        hci_sample sample = {.theta_m_rad = theta_rad / machine->pole_pairs, .temperature_C = NAN};
+        hci_phases_of_dq((hci_dq){.q = 1.0}, theta_rad, sample.i_abc);
+        if (fabs(hci_effects_torque(machine, &one, &sample, NULL).torque_Nm) > NO_TORQUE) return false;
+    }
+    return x->coenergy_unit > 0.0;
+}
+
 /* A term that was found is about as large as what was found is: where the recordings tell it, that does not
  * matter, and where a run that alone tells it from another is left out, it cannot be anything. */
 static void known_narrow(const hci_coenergy_sizes *found, const hci_candidate *x, size_t j,
@@ -165,6 +185,7 @@ static void term_fill(const hci_regression *e, const hci_candidates *fitted, con
     t->twin[at] = isnan(t->fixed[at]) && x->coenergy_unit > 0.0 ? twin_of(found, x) : 0.0;
     if (known) known_narrow(found, x, j, t, at);
     t->of_mean[at] = x->coenergy_unit > 0.0 && x->term[j].order < FIRST_OF_SLOTS;
+    t->by_direct[at] = needs_direct(e->machine, x, j);
     t->power[at] = x->coenergy_unit > 0.0 ? x->power : 0;
 }
 
@@ -180,11 +201,13 @@ hci_status hci_allowed_terms_make(const hci_regression *regression, const hci_ca
     if (!status) status = hci_coenergy_terms_unlike(&found, &series, &t->candidates, note);
     if (status) return status;
     t->candidates.reference_current_A = series.reference_current_A;
+    t->largest_current_A = current_of(regression);
     const size_t terms = hci_candidates_terms_in(&t->candidates);
     t->unit = hci_memory_new(5 * terms + 1, sizeof *t->unit);
     t->of_mean = hci_memory_new(terms + 1, sizeof *t->of_mean);
     t->power = hci_memory_new(terms + 1, sizeof *t->power);
-    if (!t->unit || !t->of_mean || !t->power) {
+    t->by_direct = hci_memory_new(terms + 1, sizeof *t->by_direct);
+    if (!t->unit || !t->of_mean || !t->power || !t->by_direct) {
         hci_allowed_terms_release(t);
         return hci_note_memory(note, NULL, "what recordings leave open");
     }
@@ -206,6 +229,7 @@ void hci_allowed_terms_release(hci_allowed_terms *t)
     hci_candidates_release(&t->candidates);
     hci_memory_free(t->unit);
     hci_memory_free(t->of_mean);
+    hci_memory_free(t->by_direct);
     hci_memory_free(t->power);
     memset(t, 0, sizeof *t);
 }

@@ -12,12 +12,14 @@ typedef struct {
     hci_candidates candidates; /* all are in, at the values of the fitted machine; without expectations */
     size_t count;              /* terms: columns of the normal equations */
     double *unit;              /* [count]: deviation to be expected where the width is 1 */
+    double largest_current_A;  /* of the runs in use */
     double *fixed; /* [count]: one over the variance that is expected whatever the width; NAN: by the width */
-    double *centre; /* [count]: expected value less the value of the fitted machine */
-    double *twin;   /* [count]: deviation that what was found at its order makes likely; 0: none */
-    double *known;  /* [count]: of one that was found, what is likely of it; 0: any */
-    bool *of_mean;  /* [count]: whether it is one of the mean torque: order 0, and of the back-EMF order 1 */
-    int *power;     /* [count]: of the currents in the co-energy */
+    double *centre;  /* [count]: expected value less the value of the fitted machine */
+    double *twin;    /* [count]: deviation that what was found at its order makes likely; 0: none */
+    double *known;   /* [count]: of one that was found, what is likely of it; 0: any */
+    bool *of_mean;   /* [count]: whether it is one of the mean torque: order 0, and of the back-EMF order 1 */
+    bool *by_direct; /* [count]: whether it makes no torque without a direct current i_d */
+    int *power;      /* [count]: of the currents in the co-energy */
 } hci_allowed_terms;
 
 /* fitted: those that are in are the model. On failure *terms is empty. HCI_ERROR_MEMORY. O(terms²). */

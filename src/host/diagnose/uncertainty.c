@@ -16,14 +16,16 @@ enum { MACHINES = 200, SEED = 1 };
 
 #define MOST_FREEDOM 200.0 /* of Student's distribution, that is a normal one */
 
-#define COPY  0.99 /* cosine of what two recordings tell, from which on they are left out together */
-#define TOLD  0.3  /* of the work, that recordings one by one are */
-#define WHOLE 1.0  /* electrical turns that remain of a run where a part of it is left out */
+#define COPY      0.99 /* cosine of what two recordings tell, from which on they are left out together */
+#define TOLD      0.3  /* of the work, that recordings one by one are */
+#define MISREAD_D 0.01 /* i_d of the largest current, that sensors and an angle a little off make */
+#define WHOLE     1.0  /* electrical turns that remain of a run where a part of it is left out */
 
 typedef struct {
     hci_regression *regression;
     const hci_candidates *fitted;
     const hci_alternatives *alternatives;
+    hci_model found; /* of the fitted terms */
     hci_allowed_terms terms;
     hci_condensed parts; /* runs, or parts of them */
     hci_condensed runs;  /* the same, with those joined that tell the same */
@@ -32,6 +34,32 @@ typedef struct {
 } finding;
 
 /* ---- recordings, one by one ---- */
+
+/* Whether the i_d of a run is no more than what current sensors read wrongly. */
+static bool direct_is_error(const finding *f, const hci_regression *e, size_t run)
+{
+    double sum = 0.0, count = 0.0;
+    for (const hci_segment *s = NULL; (s = hci_segment_next(e->samples, run, s)) != NULL;)
+        for (size_t k = s->first; k < s->first + s->count; ++k) {
+            const hci_sample truth =
+                hci_effects_undo(&f->found.list, e->machine->pole_pairs, &e->samples->sample[k].reading);
+            sum += pow(hci_sample_dq(&truth, e->machine->pole_pairs).d, 2.0);
+            count += 1.0;
+        }
+    return sqrt(sum) <= MISREAD_D * f->terms.largest_current_A * sqrt(count);
+}
+
+/* Such a run says nothing of terms that need i_d: the torque that they would make of what is read did not
+ * flow. */
+static void direct_leave(const hci_allowed_terms *terms, hci_normal_equations *normal)
+{
+    for (size_t c = 0; c < normal->n; ++c) {
+        if (!terms->by_direct[c]) continue;
+        normal->moment[c] = 0.0;
+        for (size_t k = 0; k < normal->n; ++k)
+            normal->gram[c * normal->n + k] = normal->gram[k * normal->n + c] = 0.0;
+    }
+}
 
 static hci_status part_add(void *context, const hci_regression *part, size_t run, hci_note *note)
 {
@@ -42,6 +70,7 @@ static hci_status part_add(void *context, const hci_regression *part, size_t run
                    TOLD * (double)run / (double)part->samples->run_count);
     const hci_status status = hci_regression_normal(part, &f->terms.candidates, true, &normal, note);
     if (status) return status;
+    if (direct_is_error(f, part, run)) direct_leave(&f->terms, &normal);
     const bool told = normal.rows > 0.0;
     const bool made = !told || hci_condensed_add(&f->parts, &normal, f->terms.unit);
     hci_normal_equations_release(&normal);
@@ -328,6 +357,7 @@ static hci_status uncertainty_fill(const finding *f, hci_uncertainty *u, hci_not
 
 static void finding_release(finding *f)
 {
+    hci_model_release(&f->found);
     hci_width_trials_release(&f->trials);
     hci_condensed_release(&f->parts);
     hci_condensed_release(&f->runs);
@@ -345,6 +375,7 @@ hci_status hci_uncertainty_find(hci_regression *regression, const hci_candidates
     hci_status status = with_alternatives(fitted, alternatives, &all, note);
     if (!status) status = hci_sidebands_add(regression->machine, &all, note);
     if (!status) status = hci_allowed_terms_make(f.regression, &all, &f.terms, note);
+    if (!status) status = hci_model_make(regression->declared, fitted, false, &f.found, note);
     if (!status) status = parts_add(&f, note);
     if (!status && f.runs.count >= HCI_LEAST_GROUPS) {
         status = hci_width_trials_make(&f.terms, &f.runs, &f.trials, note);

@@ -55,8 +55,8 @@ void hci_saliency_remark(const char *file, const char *folder, double inductance
 static const double OF_INDUCTANCE = 0.1;
 
 /* Of the magnets' flux where they are not: (L_d - L_q) times the rated current is 0 to 0.05 of it with
- * magnets on the surface, and 0.1 to 0.5 with magnets inside. */
-static const double OF_FLUX = 0.2;
+ * magnets on the surface, and 0.1 to 0.7 with magnets inside; twice the deviation covers these. */
+static const double OF_FLUX = 0.35;
 
 /* Mean of L_d and L_q; 0: not declared. */
 static double mean_inductance_H(const hci_machine_data *m)

@@ -138,6 +138,20 @@ static void test_saliency(void)
     is_within(error_at(-2.0, 6.0, 0.2), 5.0);
 }
 
+/* What sensors read as i_d did not flow, so that it tells nothing of L_d − L_q, however long it is read. */
+static void test_saliency_where_id_is_noise(void)
+{
+    machine.inductance_d_H = machine.inductance_q_H = NAN;
+    saliency_H = -1.6e-3;
+    measure_without_id();
+    for (size_t r = 0; r < runs.count; ++r)
+        for (size_t k = 0; k < 3 * run[r].count; ++k)
+            run[r].i_A[k] += 0.01 * ref_normal(&seed);
+    TEST_ASSERT_TRUE(diagnose(NULL) <= HCI_NOT_REACHED);
+    is_within(error_at(0.0, 6.0, 0.4), 5.0);
+    is_within(error_at(-2.0, 6.0, 0.2), 5.0);
+}
+
 /* Currents that tell how all grows, and so that cubes and more are not as large as what was found. */
 static void test_growth_is_recorded(void)
 {
@@ -185,6 +199,7 @@ int main(void)
     RUN_TEST(test_two_orders_of_any_phase);
     RUN_TEST(test_two_inductances);
     RUN_TEST(test_saliency);
+    RUN_TEST(test_saliency_where_id_is_noise);
     RUN_TEST(test_growth_is_recorded);
     RUN_TEST(test_told_apart);
     return UNITY_END();
