@@ -265,9 +265,39 @@ static void show(const hci_speeds *s, const cli_speeds_words *w)
 
 /* ---- the command ---- */
 
-static hci_status simulate(const cli_speeds_words *w, inputs *in, hci_note *note)
+static void remark_solutions(const cli_speeds_words *w, const inputs *in)
+{
+    for (size_t k = 0; k < w->table_count; ++k) {
+        hci_note remark = {{0}};
+        hci_solution_remark(w->table[k], &in->machine, &remark);
+        cli_remark(&remark);
+    }
+}
+
+static void remark(const cli_speeds_words *w, const inputs *in, const hci_speeds *speeds)
+{
+    cli_remark_drive(&in->drive, &in->machine, w->machine);
+    cli_remark_response(&in->drive, &in->machine);
+    cli_remark_counts(&in->drive, &in->machine, speeds->highest_order, speeds->torque_Nm,
+                      speeds->coarse_mean_Nm);
+    remark_solutions(w, in);
+}
+
+/* Files, words and remarks in this order. */
+static hci_status tell(const cli_speeds_words *w, const inputs *in, const hci_speeds *speeds, hci_note *note)
 {
     const hci_report_sources sources = {.machine = w->machine, .currents = w->table[0], .drive = w->drive};
+    hci_status status = HCI_OK;
+    if (w->out) status = hci_speeds_write(speeds, w->report ? &sources : NULL, w->out, note);
+    if (status) return status;
+    if (cli_is_wordy()) show(speeds, w);
+    remark(w, in, speeds);
+    if (!w->json) return HCI_OK;
+    return cli_print_json(w->out ? hci_summary_read(w->out) : hci_speeds_json(speeds), note);
+}
+
+static hci_status simulate(const cli_speeds_words *w, inputs *in, hci_note *note)
+{
     const double last_Nm = in->levels.level[in->levels.count - 1].torque_Nm;
     const hci_speeds_request request = {.machine = &in->machine,
                                         .effects = &in->effects.list,
@@ -282,20 +312,7 @@ static hci_status simulate(const cli_speeds_words *w, inputs *in, hci_note *note
     hci_speeds speeds;
     hci_status status = hci_simulate_speeds(&request, &speeds, note);
     cli_progress_end();
-    if (!status && w->out) status = hci_speeds_write(&speeds, w->report ? &sources : NULL, w->out, note);
-    if (!status && cli_is_wordy()) show(&speeds, w);
-    if (!status) cli_remark_drive(&in->drive, &in->machine, w->machine);
-    if (!status) cli_remark_response(&in->drive, &in->machine);
-    if (!status)
-        cli_remark_counts(&in->drive, &in->machine, speeds.highest_order, speeds.torque_Nm,
-                          speeds.coarse_mean_Nm);
-    for (size_t k = 0; k < w->table_count && !status; ++k) {
-        hci_note remark = {{0}};
-        hci_solution_remark(w->table[k], &in->machine, &remark);
-        cli_remark(&remark);
-    }
-    if (!status && w->json)
-        status = cli_print_json(w->out ? hci_summary_read(w->out) : hci_speeds_json(&speeds), note);
+    if (!status) status = tell(w, in, &speeds, note);
     hci_speeds_release(&speeds);
     return status;
 }

@@ -189,6 +189,33 @@ static void term_fill(const hci_regression *e, const hci_candidates *fitted, con
     t->power[at] = x->coenergy_unit > 0.0 ? x->power : 0;
 }
 
+/* Room for so many terms; on failure what there is waits for release. */
+static hci_status terms_reserve(hci_allowed_terms *t, size_t terms, hci_note *note)
+{
+    t->unit = hci_memory_new(5 * terms + 1, sizeof *t->unit);
+    t->of_mean = hci_memory_new(terms + 1, sizeof *t->of_mean);
+    t->by_direct = hci_memory_new(terms + 1, sizeof *t->by_direct);
+    t->power = hci_memory_new(terms + 1, sizeof *t->power);
+    if (!t->unit || !t->of_mean || !t->power || !t->by_direct)
+        return hci_note_memory(note, NULL, "what recordings leave open");
+    t->fixed = t->unit + terms;
+    t->centre = t->fixed + terms;
+    t->twin = t->centre + terms;
+    t->known = t->twin + terms;
+    return HCI_OK;
+}
+
+static void terms_fill(const hci_regression *e, const hci_candidates *fitted, const hci_coenergy_sizes *found,
+                       hci_allowed_terms *t)
+{
+    for (size_t k = 0; k < t->candidates.count; ++k) {
+        hci_candidate *x = &t->candidates.candidate[k];
+        for (size_t j = 0; j < x->count; ++j)
+            term_fill(e, fitted, found, x, j, t);
+        x->deviation = 0.0;
+    }
+}
+
 hci_status hci_allowed_terms_make(const hci_regression *regression, const hci_candidates *fitted,
                                   hci_allowed_terms *t, hci_note *note)
 {
@@ -202,26 +229,12 @@ hci_status hci_allowed_terms_make(const hci_regression *regression, const hci_ca
     if (status) return status;
     t->candidates.reference_current_A = series.reference_current_A;
     t->largest_current_A = current_of(regression);
-    const size_t terms = hci_candidates_terms_in(&t->candidates);
-    t->unit = hci_memory_new(5 * terms + 1, sizeof *t->unit);
-    t->of_mean = hci_memory_new(terms + 1, sizeof *t->of_mean);
-    t->power = hci_memory_new(terms + 1, sizeof *t->power);
-    t->by_direct = hci_memory_new(terms + 1, sizeof *t->by_direct);
-    if (!t->unit || !t->of_mean || !t->power || !t->by_direct) {
+    status = terms_reserve(t, hci_candidates_terms_in(&t->candidates), note);
+    if (status)
         hci_allowed_terms_release(t);
-        return hci_note_memory(note, NULL, "what recordings leave open");
-    }
-    t->fixed = t->unit + terms;
-    t->centre = t->fixed + terms;
-    t->twin = t->centre + terms;
-    t->known = t->twin + terms;
-    for (size_t k = 0; k < t->candidates.count; ++k) {
-        hci_candidate *x = &t->candidates.candidate[k];
-        for (size_t j = 0; j < x->count; ++j)
-            term_fill(regression, fitted, &found, x, j, t);
-        x->deviation = 0.0;
-    }
-    return HCI_OK;
+    else
+        terms_fill(regression, fitted, &found, t);
+    return status;
 }
 
 void hci_allowed_terms_release(hci_allowed_terms *t)

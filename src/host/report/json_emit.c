@@ -61,37 +61,49 @@ char *hci_emit_json(const hci_emit_request *request, const hci_emit_result *resu
     return hci_json_end(&json);
 }
 
+/* What stands in the table, and what it takes of the controller. */
+static void add_loop_table(hci_json *json, const hci_emit_loop_result *r)
+{
+    hci_json_number(json, "orders", (double)r->orders);
+    hci_json_number(json, "highest_order", r->highest_order);
+    hci_json_number(json, "levels", (double)r->levels);
+    hci_json_number(json, "torque_low_Nm", r->torque_low_Nm);
+    hci_json_number(json, "torque_high_Nm", r->torque_high_Nm);
+    hci_json_number(json, "points", (double)r->points);
+    hci_json_number(json, "repeats", (double)r->repeats);
+    hci_json_number(json, "period_electrical_turns", (double)r->period_turns);
+    hci_json_number(json, "flash_bytes", (double)r->flash_bytes);
+    hci_json_number(json, "ram_bytes", (double)r->ram_bytes);
+    hci_json_number(json, "feedforward_ram_bytes", (double)r->feedforward_ram_bytes);
+    hci_json_number(json, "max_error_A", r->max_error_A);
+    hci_json_number(json, "peak_A", r->peak_A);
+}
+
+/* At which speed something is lost, and what stays between the levels. */
+static void add_loop_limits(hci_json *json, const hci_emit_loop_result *r)
+{
+    hci_json_number(json, "lead_s", r->lead_s);
+    hci_json_number(json, "coarse_angle_mean_Nm", r->coarse_mean_Nm);
+    hci_json_number(json, "dc_link_V", r->dc_link_V);
+    hci_json_number(json, "voltage_rpm", r->voltage_rad_per_s * 30.0 / HCI_PI);
+    hci_json_number(json, "sampled_rpm", r->sampled_rad_per_s * 30.0 / HCI_PI);
+    hci_json_number(json, "measured_rpm", r->measured_rad_per_s * 30.0 / HCI_PI);
+    hci_json_number(json, "response_error", r->response_error);
+    hci_json_number(json, "response_ripple", r->response_ripple_percent);
+    hci_json_number(json, "response_rpm", r->response_rad_per_s * 30.0 / HCI_PI);
+    hci_json_number(json, "between_mean_off_Nm", r->between.mean_off_Nm);
+    hci_json_number(json, "between_mean_at_Nm", r->between.mean_at_Nm);
+    hci_json_number(json, "between_ripple_Nm", r->between.ripple_Nm);
+    hci_json_number(json, "between_ripple_at_Nm", r->between.ripple_at_Nm);
+}
+
 char *hci_emit_loop_json(const hci_emit_loop_request *request, const hci_emit_loop_result *r)
 {
     hci_json json;
     hci_summary_begin(&json, "emit");
     hci_json_text(&json, "name", request->name);
-    hci_json_number(&json, "orders", (double)r->orders);
-    hci_json_number(&json, "highest_order", r->highest_order);
-    hci_json_number(&json, "levels", (double)r->levels);
-    hci_json_number(&json, "torque_low_Nm", r->torque_low_Nm);
-    hci_json_number(&json, "torque_high_Nm", r->torque_high_Nm);
-    hci_json_number(&json, "points", (double)r->points);
-    hci_json_number(&json, "repeats", (double)r->repeats);
-    hci_json_number(&json, "period_electrical_turns", (double)r->period_turns);
-    hci_json_number(&json, "flash_bytes", (double)r->flash_bytes);
-    hci_json_number(&json, "ram_bytes", (double)r->ram_bytes);
-    hci_json_number(&json, "feedforward_ram_bytes", (double)r->feedforward_ram_bytes);
-    hci_json_number(&json, "max_error_A", r->max_error_A);
-    hci_json_number(&json, "peak_A", r->peak_A);
-    hci_json_number(&json, "lead_s", r->lead_s);
-    hci_json_number(&json, "coarse_angle_mean_Nm", r->coarse_mean_Nm);
-    hci_json_number(&json, "dc_link_V", r->dc_link_V);
-    hci_json_number(&json, "voltage_rpm", r->voltage_rad_per_s * 30.0 / HCI_PI);
-    hci_json_number(&json, "sampled_rpm", r->sampled_rad_per_s * 30.0 / HCI_PI);
-    hci_json_number(&json, "measured_rpm", r->measured_rad_per_s * 30.0 / HCI_PI);
-    hci_json_number(&json, "response_error", r->response_error);
-    hci_json_number(&json, "response_ripple", r->response_ripple_percent);
-    hci_json_number(&json, "response_rpm", r->response_rad_per_s * 30.0 / HCI_PI);
-    hci_json_number(&json, "between_mean_off_Nm", r->between.mean_off_Nm);
-    hci_json_number(&json, "between_mean_at_Nm", r->between.mean_at_Nm);
-    hci_json_number(&json, "between_ripple_Nm", r->between.ripple_Nm);
-    hci_json_number(&json, "between_ripple_at_Nm", r->between.ripple_at_Nm);
+    add_loop_table(&json, r);
+    add_loop_limits(&json, r);
     hci_json_number(&json, "crc32", r->crc32);
     return hci_json_end(&json);
 }
