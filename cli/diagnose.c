@@ -69,12 +69,37 @@ static hci_status keep_apart(const char *machine, const char *folder, const char
                         "%s would be replaced by a result of the same name; give another --out", machine);
 }
 
+/* Whether a folder has a file; path: out. */
+static bool has_file(const char *folder, const char *file, char path[PATH_SIZE + 32])
+{
+    struct stat there;
+    snprintf(path, PATH_SIZE + 32, "%s/%s", folder, file);
+    return stat(path, &there) == 0;
+}
+
+/* What --again names is to be the --out of a diagnosis; of a folder of `tune` that is a part. */
+static hci_status check_last(const char *last, hci_note *note)
+{
+    char path[PATH_SIZE + 32];
+    if (has_file(last, "declared/machine.csv", path)) return HCI_OK;
+    if (has_file(last, "diagnose/declared/machine.csv", path))
+        return hci_note_set(
+            note, HCI_ERROR_INPUT,
+            "%.300s: found the --out of `tune`, expected that of a diagnosis, which stands in "
+            "it; write --again %.300s/diagnose",
+            last, last);
+    has_file(last, "declared/machine.csv", path);
+    return hci_note_set(note, HCI_ERROR_INPUT,
+                        "%.300s: found no such file, expected the --out of a diagnosis; run hci-solve "
+                        "diagnose MACHINE --runs LIST --out LAST first, with a folder LAST of its own, "
+                        "and give that",
+                        path);
+}
+
 /* The machine of the command line, or that which the last diagnosis started from. */
 static hci_status find_machine(const cli_arguments *a, inputs *in, hci_note *note)
 {
     const size_t wanted = a->value[AGAIN] ? 0 : 1;
-    char table[PATH_SIZE + 16];
-    struct stat there;
     if (a->words != wanted)
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
                             "diagnose: found %zu word%s, expected %zu: %s; see hci-solve diagnose --help",
@@ -83,14 +108,8 @@ static hci_status find_machine(const cli_arguments *a, inputs *in, hci_note *not
     if (snprintf(in->folder, PATH_SIZE, "%s%s", wanted ? a->word[0] : a->value[AGAIN],
                  wanted ? "" : "/declared") >= PATH_SIZE)
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "--again: the path is too long");
-    snprintf(table, sizeof table, "%s/machine.csv", in->folder);
-    if (!wanted && stat(table, &there) != 0)
-        return hci_note_set(note, HCI_ERROR_INPUT,
-                            "%.300s: found no such file, expected the --out of a diagnosis; run hci-solve "
-                            "diagnose MACHINE --runs LIST --out LAST first, with a folder LAST of its own, "
-                            "and give that",
-                            table);
-    const hci_status status = keep_apart(in->folder, a->value[OUT], "declared", note);
+    hci_status status = wanted ? HCI_OK : check_last(a->value[AGAIN], note);
+    if (!status) status = keep_apart(in->folder, a->value[OUT], "declared", note);
     return status ? status : keep_apart(in->folder, a->value[OUT], "machine", note);
 }
 
@@ -163,7 +182,8 @@ static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note
     hci_status status = HCI_OK;
     if (!a->value[RUNS])
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                            "diagnose: the recordings are missing; add --runs LIST");
+                            "diagnose: the recordings are missing; add --runs LIST, a table with the header "
+                            "file,role and a row for each");
     status = cli_reading_take(a, a->given[STRICT], a->value[ANGLE_OFFSET], &in->reading, note);
     if (!status) status = find_machine(a, in, note);
     in->options.resolution = cli_number_or(a, RESOLUTION, 0.0) / 100.0;

@@ -10,6 +10,7 @@
 
 #include "hci/host/base/number.h"
 #include "hci/host/base/spelling.h"
+#include "hci/host/base/unit.h"
 
 /* ---- words ---- */
 
@@ -244,11 +245,30 @@ static const char *remedy_of(const cli_option *o, const char *text)
     return has_unit(text) ? "give the number without its unit" : NULL;
 }
 
-/* The number that a text with a unit behind it, or with a decimal comma, most likely means: 28.5 of
- * `28,5rpm/V`; false: none that the option takes. */
+/* Whether an option takes a number. */
+static bool is_taken(const cli_option *o, double value)
+{
+    const double step = o->step > 1 ? o->step : 1;
+    return value >= o->low && value <= o->high && (o->kind == CLI_NUMBER || fmod(value, step) == 0.0);
+}
+
+/* By how much a number is more in the unit that an option's value is named by (KGM2, NM_PER_A) than in the
+ * one behind it; false: of another quantity, or not known. Of options that name no unit, 1. */
+static bool factor_of(const cli_option *o, const char *unit, double *factor)
+{
+    char wanted[32] = "";
+    for (size_t k = 0; o->value_name[k] && k + 1 < sizeof wanted; ++k)
+        wanted[k] = (char)tolower((unsigned char)o->value_name[k]);
+    *factor = 1.0;
+    unit += strspn(unit, " ");
+    return *unit == '\0' || !hci_unit_factor(wanted, wanted, factor) || hci_unit_factor(unit, wanted, factor);
+}
+
+/* The number that a text with a unit behind it, or with a decimal comma, most likely means, in the option's
+ * unit: 28.5 of `28,5rpm/V`, 2e-07 of `2gcm2`; false: none that the option takes. */
 static bool meant_of(const cli_option *o, const char *text, char meant[32])
 {
-    double value;
+    double value, factor;
     size_t length = strspn(text, "+-0123456789.,eE");
     if (hci_number_parse(text, &value)) return false;
     snprintf(meant, 32, "%.*s", (int)(length < 31 ? length : 31), text);
@@ -256,8 +276,9 @@ static bool meant_of(const cli_option *o, const char *text, char meant[32])
     if (comma) *comma = '.';
     while (*meant && !hci_number_parse(meant, &value))
         meant[strlen(meant) - 1] = '\0';
-    return *meant && value >= o->low && value <= o->high &&
-           (o->kind == CLI_NUMBER || fmod(value, o->step > 1 ? o->step : 1) == 0.0);
+    if (!*meant || !factor_of(o, text + strlen(meant), &factor) || !is_taken(o, value * factor)) return false;
+    if (factor != 1.0) snprintf(meant, 32, "%.6g", value * factor);
+    return true;
 }
 
 static hci_status wrong_number(const cli_option *o, const char *text, hci_note *note)

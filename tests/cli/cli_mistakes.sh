@@ -111,6 +111,10 @@ solved 2 'did you mean `--target`\?' -- --targt t.csv
 solved 2 'found `ummfpack`, expected one of: .*; did you mean `umfpack`\?' -- --method ummfpack
 solved 2 '.*give the number without its unit' -- --limit-voltage 48V --speed 1000
 for kv in 28,5 28.5rpm/V 28,5rpm/V; do run 2 init kv --pole-pairs 7 --kv $kv -o kv; says '; write --kv 28\.5$'; done
+for case in inertia=2gcm2=2e-07 inertia=2e-7kgm2=2e-7 resistance=900mohm=0.9 torque-constant=50mNm/A=0.05 inductance=1,2mH=0.0012 rated-current=8Arms=11.3137; do
+    given=${case#*=}; run 2 init units --pole-pairs 7 --kv 100 --${case%%=*} ${given%%=*} -o units; says "; write --${case%%=*} ${given##*=}\$"
+done
+run 2 init units --pole-pairs 7 --kv 100 --inertia 2furlong; check 'a number of a unit that is not known is proposed' [ "$(grep -c 'write --inertia' stderr)" = 0 ]
 run 2 init kv --pole-pairs 7 --kv -28 -o kv; check 'a number that is none is proposed' [ "$(grep -c 'write --kv' stderr)" = 0 ]
 run 2 init kv --pole-pairs 7 --KV 28; says 'unknown option `--KV`; did you mean `--kv`\?'
 run 0 init henry --pole-pairs 7 --kv 100 --inductance 0.5; says 'a short circuit of this motor would carry 0\.016 A at any speed: is it 0\.5 mH, which are 0\.0005 H\?'
@@ -120,6 +124,11 @@ run 2 batch tune motors.csv -o batch; says 'found the word `tune` before the lis
 run 2 batch tune motors.csv --command tune -o batch; says 'hci-solve batch motors.csv --command tune'
 run 3 diagnose --again m --runs runs.csv -o diagnosed; says 'found no such file, expected the --out of a diagnosis'
 check 'the machine is to be written over' [ "$(grep -c -- '--out m ' stderr)" = 0 ]
+mkdir -p tuned/diagnose/declared; cp m/machine.csv tuned/diagnose/declared
+run 3 diagnose --again tuned --runs runs.csv -o diagnosed; says 'found the --out of `tune`, .*; write --again tuned/diagnose$'
+rm -r tuned
+printf 'time_s,theta_m_rad,iq_A\n0,0,1\n' >log.csv
+run 3 simulate m log.csv -o s; says 'log.csv: found a table whose first column is `time_s`, expected a scenario: .*a recording to `predict`, '
 run 2 sovle m; says 'did you mean `solve`\?'
 run 2 harmonics r.csv --quantity back-emf --pole-pairs 2; says 'did you mean `back_emf`\?'
 printf 'name,value,unit\nduration,40,ms\nprescribed_sped,1500,rpm\n' >s.csv

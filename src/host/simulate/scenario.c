@@ -146,6 +146,18 @@ static hci_status check_words(const hci_scenario *s, const bool given[WORDS], hc
     return HCI_OK;
 }
 
+/* Another table, such as a recording, in place of a scenario. */
+static hci_status check_columns(const hci_csv *csv, hci_note *note)
+{
+    char path[HCI_QUOTE_PATH_SIZE], column[HCI_QUOTE_SIZE];
+    if (hci_csv_has(csv, "name")) return HCI_OK;
+    return hci_note_set(note, HCI_ERROR_INPUT,
+                        "%s: found a table whose first column is %s, expected a scenario: a table "
+                        "name,value,unit, such as data/drive/imposed.csv; give one, and a recording to "
+                        "`predict`, `check`, `diagnose` or `tune`",
+                        hci_quote_path(hci_csv_path(csv), path), hci_quote(hci_csv_name(csv, 0), column));
+}
+
 hci_status hci_scenario_read(const char *path, hci_scenario *scenario, hci_note *note)
 {
     bool given[WORDS] = {false};
@@ -156,6 +168,7 @@ hci_status hci_scenario_read(const char *path, hci_scenario *scenario, hci_note 
         return hci_note_set(note, HCI_ERROR_INPUT, "%.200s…: the path is too long", path);
     status = hci_csv_read(path, &csv, note);
     if (status) return status;
+    status = check_columns(csv, note);
     for (size_t row = 0; row < hci_csv_rows(csv) && !status; ++row)
         status = read_row(csv, row, scenario, given, note);
     hci_csv_free(csv);
