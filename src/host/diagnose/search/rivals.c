@@ -16,16 +16,19 @@
 enum { VALUES_MORE = 2 }; /* of a rival that may be what recordings show */
 
 /* Other effects in place of one that is in the model, one after the other. */
-typedef struct {
+typedef struct rivalry rivalry;
+struct rivalry {
     hci_search *search;
     const hci_fitted_model *model;
     const hci_effect_type *type; /* in whose place */
     bool unseen;                 /* only what these rounds have not been at */
-    double bar;                  /* that the score of a rival has to be below, to be looked at */
+    bool (*is_asked)(const rivalry *r, const hci_candidate_model *x); /* what else is not; NULL: nothing */
+    double bar;        /* that the score of a rival has to be below, to be looked at … */
+    double square_bar; /* … or the sum of its squares this one */
     hci_fitted_model without;
     hci_candidate_models models;
     size_t next;
-} rivalry;
+};
 
 static hci_status rivalry_start(hci_search *s, const hci_fitted_model *model, const hci_effect_type *type,
                                 rivalry *r, hci_note *note)
@@ -35,6 +38,7 @@ static hci_status rivalry_start(hci_search *s, const hci_fitted_model *model, co
     r->model = model;
     r->type = type;
     r->bar = INFINITY;
+    r->square_bar = -INFINITY;
     hci_status status = hci_search_without(s, model, type, &r->without, note);
     if (!status) status = hci_candidate_models_make(s, &r->without.candidates, false, &r->models, note);
     return status;
@@ -75,7 +79,30 @@ static bool is_promising(const rivalry *r, const hci_candidate_model *x)
     const double gain = r->without.fit.score - r->model->fit.score;
     return other != r->type && !hci_candidates_have(&r->model->candidates, other) &&
            !(x->gain < PROMISED_SHARE * gain - PROMISED_LESS) &&
-           !(r->unseen && is_seen(r->search, types_of(&r->without.candidates, other)));
+           !(r->unseen && is_seen(r->search, types_of(&r->without.candidates, other))) &&
+           !(r->is_asked && !r->is_asked(r, x));
+}
+
+static bool is_in(const rivalry *r, const hci_candidate_model *x, size_t k)
+{
+    return r->models.list.candidate[k].in || x->in[k];
+}
+
+/* How many terms a rival has, and what they cost. */
+static size_t terms_of(const rivalry *r, const hci_candidate_model *x)
+{
+    size_t terms = 0;
+    for (size_t k = 0; k < r->models.list.count; ++k)
+        if (is_in(r, x, k)) terms += r->models.list.candidate[k].count;
+    return terms;
+}
+
+static double cost_of(const rivalry *r, const hci_candidate_model *x)
+{
+    double cost = 0.0;
+    for (size_t k = 0; k < r->models.list.count; ++k)
+        if (is_in(r, x, k)) cost += hci_candidate_cost(&r->models.list.candidate[k], r->model->fit.rows);
+    return cost;
 }
 
 /* The next promising rival, fitted. with: out, its type in hci_candidate_type's count, or its end. On failure
@@ -89,7 +116,8 @@ static hci_status rivalry_next(rivalry *r, hci_fitted_model *rival, size_t *with
     if (r->next == r->models.count) return HCI_OK;
     const hci_candidate_model *x = &r->models.model[r->next++];
     *with = x->a;
-    return hci_candidate_model_fit(r->search, &r->models, x, r->bar, rival, note);
+    const double bar = fmax(r->bar, r->square_bar + cost_of(r, x));
+    return hci_candidate_model_fit(r->search, &r->models, x, bar, rival, note);
 }
 
 /* ---- another effect instead ---- */
@@ -202,6 +230,11 @@ static bool is_of_its_own(const hci_effect_type *type, const hci_effect_type *ot
     return other != &hci_empirical_type && !other->seen_as && !is_called(type, other);
 }
 
+static bool asks_own(const rivalry *r, const hci_candidate_model *x)
+{
+    return is_of_its_own(r->type, hci_candidate_type(x->a));
+}
+
 /* Whether a rival of hardly more values describes the recordings as well: what it costs in values does not
  * make it unlikely, as of a friction whose law comes in as a whole. */
 static bool describes_as_well(const hci_fitted_model *model, const hci_fitted_model *rival)
@@ -237,18 +270,26 @@ hci_status hci_search_rivals(hci_search *s, const hci_effect_type *type, hci_att
     size_t with = 0;
     hci_status status = rivalry_start(s, &a->model, type, &r, note);
     if (!status) plausible_mark(&r, a);
+    r.is_asked = asks_own;
+    r.bar = a->model.fit.score + EQUAL;
+    if (type->propose_coenergy) r.square_bar = a->model.fit.square + HCI_DECISIVE;
     while (!status && !hci_search_is_over(s)) {
         status = rivalry_next(&r, &rival, &with, note);
         if (status || with == hci_candidate_types()) break;
-        bool equal = is_of_its_own(type, hci_candidate_type(with)) &&
-                     (rival.fit.score < a->model.fit.score + EQUAL ||
-                      is_same_ripple(&a->model, &rival, type, hci_candidate_type(with)));
+        bool equal = rival.fit.score < a->model.fit.score + EQUAL ||
+                     is_same_ripple(&a->model, &rival, type, hci_candidate_type(with));
         if (equal) status = is_as_good(&r, &rival, &equal, note);
         if (!status && equal) rival_mark(&r, with, &rival, a);
         hci_fitted_model_release(&rival);
     }
     rivalry_end(&r);
     return status;
+}
+
+static bool asks_few(const rivalry *r, const hci_candidate_model *x)
+{
+    return asks_own(r, x) &&
+           terms_of(r, x) <= hci_candidates_terms_in(&r->model->candidates) + VALUES_MORE;
 }
 
 hci_status hci_search_is_told(hci_search *s, const hci_fitted_model *model, const hci_effect_type *type,
@@ -258,15 +299,24 @@ hci_status hci_search_is_told(hci_search *s, const hci_fitted_model *model, cons
     hci_fitted_model rival = {0};
     size_t with = 0;
     hci_status status = rivalry_start(s, model, type, &r, note);
+    r.is_asked = asks_few;
+    r.bar = -INFINITY;
+    r.square_bar = model->fit.square + HCI_DECISIVE;
     *told = true;
     while (!status && *told) {
         status = rivalry_next(&r, &rival, &with, note);
         if (status || with == hci_candidate_types()) break;
-        *told = !is_of_its_own(type, hci_candidate_type(with)) || !describes_as_well(model, &rival);
+        *told = !describes_as_well(model, &rival);
         hci_fitted_model_release(&rival);
     }
     rivalry_end(&r);
     return status;
+}
+
+static bool asks_angle(const rivalry *r, const hci_candidate_model *x)
+{
+    return hci_candidate_type(x->a)->keeps_currents &&
+           terms_of(r, x) <= hci_candidates_terms_in(&r->model->candidates);
 }
 
 hci_status hci_search_is_of_angle(hci_search *s, const hci_fitted_model *model, const hci_effect_type *type,
@@ -277,14 +327,13 @@ hci_status hci_search_is_of_angle(hci_search *s, const hci_fitted_model *model, 
     size_t with = 0;
     hci_status status = rivalry_start(s, model, type, &r, note);
     const double gain = r.without.fit.score - model->fit.score;
+    r.is_asked = asks_angle;
+    r.bar = r.without.fit.score - MOST_OF * gain;
     *of_angle = false;
     while (!status && !*of_angle && !type->keeps_currents) {
         status = rivalry_next(&r, &rival, &with, note);
         if (status || with == hci_candidate_types()) break;
-        *of_angle =
-            hci_candidate_type(with)->keeps_currents &&
-            hci_candidates_terms_in(&rival.candidates) <= hci_candidates_terms_in(&model->candidates) &&
-            r.without.fit.score - rival.fit.score > MOST_OF * gain;
+        *of_angle = rival.fit.score < r.bar;
         hci_fitted_model_release(&rival);
     }
     rivalry_end(&r);
