@@ -7,6 +7,7 @@
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
 #include "host/diagnose/prepare/current_rate.h"
+#include "host/diagnose/prepare/repeats.h"
 #include "host/diagnose/prepare/rest.h"
 #include "host/diagnose/prepare/run_statistics.h"
 #include "host/diagnose/prepare/smooth.h"
@@ -25,6 +26,8 @@ enum {
     LEAST_OF_SLOPE = 2, /* samples */
     LEAST_OF_WAY = 16,
     MOST_OPEN = 8,      /* segments of samples as they are, for each run */
+    MANY = 16384,       /* samples of all runs, which then have steady ones as means however short */
+    WORTH_MEANS = 2,    /* samples for each of a mean, there */
     CREEPING_PIECES = 4 /* means of one steady run whose torque creeps */
 };
 
@@ -41,6 +44,7 @@ typedef struct {
     const hci_run_statistics *statistics;
     const double *acceleration; /* of each sample, rad/s²; 0 where a rotor's inertia is not in the torque */
     const bool *at_rest;        /* of each sample of the run: it tells no torque */
+    bool many;                  /* all runs together have many samples */
     hci_binned_samples *samples;
     size_t *capacity; /* samples that there is memory for */
 } reduction;
@@ -373,20 +377,44 @@ static bool turns_reduce(const reduction *x, const hci_turn *turns, size_t count
     return (open > 0 && rest <= HCI_LONGEST_SEGMENT) || open_segments(x, open, rest);
 }
 
-/* Whether all turns are alike, and have so few samples that what is between two of them is seen in other
- * turns only: a sensor that is slow cannot be followed from sample to sample then. */
-static bool is_sparse(const reduction *x, const hci_turn *turns, size_t count)
+/* Turns of a torque that was measured along time, all of them alike but for what is cut off at the ends. */
+typedef struct {
+    size_t first, count; /* of a list of turns; none: they are not */
+    double samples;      /* of one, on the average */
+} alike_turns;
+
+static alike_turns alike_find(const reduction *x, const hci_turn *turns, size_t count)
 {
     const hci_run *r = x->run;
     size_t first = 0, last = count;
-    if (r->torque_source != HCI_TORQUE_MEASURED || !r->time_s || !r->turn_known) return false;
+    if (r->torque_source != HCI_TORQUE_MEASURED || !r->time_s || !r->turn_known) return (alike_turns){0};
     while (first < count && !turns[first].whole)
         ++first;
     while (last > first && !turns[last - 1].whole)
         --last;
-    if (last - first < LEAST_SPARSE || alike_end(x, turns, last, first) < last) return false;
-    const double of_turn = (double)(behind(&turns[last - 1]) - turns[first].first) / (double)(last - first);
-    return of_turn < PER_PERIOD * x->finest_order;
+    if (last == first || alike_end(x, turns, last, first) < last) return (alike_turns){0};
+    const double samples = (double)(behind(&turns[last - 1]) - turns[first].first);
+    return (alike_turns){first, last - first, samples / (double)(last - first)};
+}
+
+/* Whether all turns are alike, and have so few samples that what is between two of them is seen in other
+ * turns only: a sensor that is slow cannot be followed from sample to sample then. */
+static bool is_sparse(const reduction *x, const hci_turn *turns, size_t count)
+{
+    const alike_turns alike = alike_find(x, turns, count);
+    return alike.count >= LEAST_SPARSE && alike.samples < PER_PERIOD * x->finest_order;
+}
+
+/* Whether all turns are alike and show the same, and means over them are far fewer samples. worth: out. False
+ * when memory is out. */
+static bool means_weigh(const reduction *x, const hci_turn *turns, size_t count, bool *worth)
+{
+    const alike_turns alike = alike_find(x, turns, count);
+    *worth = false;
+    if (!x->many || alike.count < LEAST_TURNS ||
+        x->run->count < WORTH_MEANS * (BINS_PER_TURN / joined_to_one(x)))
+        return true;
+    return hci_repeats_find(x->run, x->statistics, x->pole_pairs, turns + alike.first, alike.count, worth);
 }
 
 static bool any_creeps(const reduction *x, const hci_turn *turns, size_t count)
@@ -402,10 +430,12 @@ static bool run_reduce(const reduction *x)
 {
     hci_turn *turns = NULL;
     size_t count = 0;
+    bool worth = false;
     if (x->run->only_mean) return open_segment(x, 0, x->run->count);
     bool done = hci_turns_find(x->run, x->pole_pairs, &turns, &count);
     if (done) x->samples->statistics[x->index].creeps = any_creeps(x, turns, count);
-    if (done && x->run->count <= HCI_LONGEST_SEGMENT && !is_sparse(x, turns, count))
+    if (done && x->run->count <= HCI_LONGEST_SEGMENT) done = means_weigh(x, turns, count, &worth);
+    if (done && x->run->count <= HCI_LONGEST_SEGMENT && !is_sparse(x, turns, count) && !worth)
         done = open_segments(x, 0, x->run->count);
     else if (done && hci_turns_swing(x->run, x->statistics, turns, count))
         done = open_segments(x, 0, x->run->count);
@@ -449,11 +479,21 @@ static double finest_order(const hci_machine *machine)
     return finest * machine->pole_pairs;
 }
 
+/* Whether as many samples as there are, of runs that are not too long for it, would be many. */
+static bool are_many(const hci_run *runs, size_t count)
+{
+    size_t sum = 0;
+    for (size_t k = 0; k < count; ++k)
+        if (is_usable(&runs[k]) && runs[k].count <= HCI_LONGEST_SEGMENT) sum += runs[k].count;
+    return sum > MANY;
+}
+
 /* Adds run k. False when memory is out. */
-static bool run_add(const hci_machine *machine, const hci_run *run, size_t k, hci_binned_samples *samples,
+static bool run_add(const hci_machine *machine, const hci_run *runs, size_t k, hci_binned_samples *samples,
                     size_t *capacity)
 {
     static const hci_effects none = {NULL, 0};
+    const hci_run *run = &runs[k];
     hci_run_statistics *statistics = &samples->statistics[k];
     const bool holds = run->torque_source == HCI_TORQUE_HOLDING;
     bool *at_rest = hci_memory_new(run->count + 1, sizeof *at_rest);
@@ -466,6 +506,7 @@ static bool run_add(const hci_machine *machine, const hci_run *run, size_t k, hc
                          statistics,
                          acceleration,
                          at_rest,
+                         are_many(runs, samples->run_count),
                          samples,
                          capacity};
     const bool done = run_fill(run, statistics, at_rest, acceleration) && (!is_usable(run) || run_reduce(&x));
@@ -511,7 +552,7 @@ hci_status hci_binned_samples_make(const hci_machine *machine, double rated_curr
     samples->statistics = hci_memory_new(run_count + 1, sizeof *samples->statistics);
     bool done = samples->statistics && statistics_fill(machine, rated_current_A, runs, samples);
     for (size_t k = 0; k < run_count && done; ++k)
-        done = run_add(machine, &runs[k], k, samples, &capacity);
+        done = run_add(machine, runs, k, samples, &capacity);
     if (done) return HCI_OK;
     hci_binned_samples_release(samples);
     return hci_note_memory(note, NULL, "the recordings");

@@ -322,6 +322,35 @@ static hci_status whole_try(hci_search *s, hci_fitted_model *model, hci_fitted_m
     return hci_search_renew(s, known, note);
 }
 
+/* Goes back to single terms where these say of runs left out what the whole co-energy does not. */
+static hci_status single_try(hci_search *s, hci_fitted_model *model, hci_fitted_model *single, hci_note *note)
+{
+    bool unpredicted = false;
+    s->whole_coenergy = false;
+    hci_status status = hci_search_renew(s, single, note);
+    if (!status) status = hci_search_is_unpredicted(s, &single->candidates, &unpredicted, note);
+    if (status) return status;
+    if (!unpredicted) {
+        hci_fitted_model_replace(model, single);
+        return HCI_OK;
+    }
+    s->whole_coenergy = true;
+    return hci_search_renew(s, model, note);
+}
+
+static hci_status coenergy_try(hci_search *s, hci_fitted_model *model, hci_note *note)
+{
+    hci_fitted_model single = {0};
+    bool unpredicted = false;
+    hci_status status = hci_fitted_model_copy(model, &single, note);
+    if (!status) status = hci_search_coenergy(s, model, note);
+    if (!status && s->whole_coenergy)
+        status = hci_search_is_unpredicted(s, &model->candidates, &unpredicted, note);
+    if (!status && unpredicted) status = single_try(s, model, &single, note);
+    hci_fitted_model_release(&single);
+    return status;
+}
+
 /* Leaves out what says nothing of runs left out, and takes the whole co-energy in place of single terms. */
 static hci_status predictive_find(hci_search *s, hci_fitted_model *model, hci_note *note)
 {
@@ -332,7 +361,7 @@ static hci_status predictive_find(hci_search *s, hci_fitted_model *model, hci_no
         if (hci_search_saturates(&before.candidates) && !hci_search_saturates(&model->candidates))
             status = whole_try(s, &before, model, note);
         else
-            status = hci_search_coenergy(s, model, note);
+            status = coenergy_try(s, model, note);
     }
     hci_fitted_model_release(&before);
     return status;

@@ -400,14 +400,29 @@ static hci_status is_of_ripple(hci_search *s, const hci_candidates *model, doubl
 }
 
 /* A whole co-energy was chosen by runs left out, and may leave more of them, of runs at the ends of what was
- * measured. A few numbers for as many runs describe the mean of each whatever it is, such as a zero that is
+ * measured. */
+static bool is_unpredicted(const hci_search *s, double share)
+{
+    return share > (s->whole_coenergy ? MOSTLY : UNPREDICTED);
+}
+
+hci_status hci_search_is_unpredicted(hci_search *s, const hci_candidates *model, bool *unpredicted,
+                                     hci_note *note)
+{
+    double share = 0.0;
+    const hci_status status = hci_search_unpredicted(s, model, &share, note);
+    *unpredicted = !status && is_unpredicted(s, share);
+    return status;
+}
+
+/* A few numbers for as many runs describe the mean of each whatever it is, such as a zero that is
  * another one each time: effects that explain the runs but not those left out are none. unpredicted: out,
  * they are some, and something else is missing. */
 static hci_status means_judge(hci_search *s, hci_attribution *a, bool *unpredicted, hci_note *note)
 {
     double share = 0.0;
     hci_status status = hci_search_unpredicted(s, &a->model.candidates, &share, note);
-    if (status || !(share > (s->whole_coenergy ? MOSTLY : UNPREDICTED))) return status;
+    if (status || !is_unpredicted(s, share)) return status;
     s->whole_coenergy = false;
     status = is_of_ripple(s, &a->model.candidates, share, unpredicted, note);
     return status || *unpredicted ? status : means_leave(s, a, note);
