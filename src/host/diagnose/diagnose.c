@@ -22,6 +22,7 @@
 #include "host/diagnose/search/attribute.h"
 #include "host/diagnose/search/backward.h"
 #include "host/diagnose/uncertainty.h"
+#include "host/diagnose/unconfirmed.h"
 #include "host/machine/torque_constant.h"
 
 #define RESOLUTION 5e-4 /* of the largest rms torque */
@@ -390,6 +391,25 @@ static void drowned_judge(const hci_dataset *b, const hci_machine_data *machine,
     hci_uncertainty_release(&d->uncertainty);
 }
 
+/* Takes out what a search that ended early has not confirmed, all at once: beside what each of them leaves
+ * nothing else would be. */
+static hci_status unconfirmed_leave(hci_dataset *b, const hci_runs *runs, hci_attribution *a,
+                                    hci_diagnosis *d, hci_note *note)
+{
+    bool left = false;
+    for (size_t r = 0; r < a->types; ++r) {
+        hci_verdict *v = &a->verdict[r];
+        if (!hci_is_unconfirmed(a, d, v)) continue;
+        hci_candidates_remove_type(&a->model.candidates, v->type);
+        v->in = v->ambiguous = false;
+        left = true;
+    }
+    if (!left) return HCI_OK;
+    const hci_status status = refill(b, runs, a, d, note);
+    d->contradicted = false;
+    return status;
+}
+
 /* What stays and what goes once the search has answered: d is what is said of it. */
 static hci_status conclude(hci_dataset *b, const hci_machine_data *machine, const hci_runs *runs,
                            double resolution_Nm, hci_attribution *a, hci_diagnosis *d, hci_note *note)
@@ -400,6 +420,7 @@ static hci_status conclude(hci_dataset *b, const hci_machine_data *machine, cons
     if (!status && a->unknown) status = series_leave(b, runs, a, d, note);
     if (!status && a->unknown) status = rising_leave(b, runs, a, d, resolution_Nm, note);
     if (!status && a->unknown) status = denied_leave(b, runs, a, d, note);
+    if (!status) status = unconfirmed_leave(b, runs, a, d, note);
     if (!status && is_against_voltages(b, machine, runs, d)) {
         status = withdraw(b, runs, a, d, true, note);
         d->contradicted = false;

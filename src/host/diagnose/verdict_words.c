@@ -164,6 +164,11 @@ static void say_disbelieved(const hci_words *w, const hci_diagnosis *d)
 
 /* ---- what is decisive and was not taken ---- */
 
+static bool is_unfinished(const hci_diagnosis *d)
+{
+    return d->search != HCI_WORK_COMPLETE;
+}
+
 static bool is_plain(const hci_finding *f)
 {
     return f->verdict == HCI_FINDING_REJECTED && f->delta_bic > PLAIN && strcmp(f->effect, "unknown") != 0;
@@ -185,7 +190,9 @@ static void say_not_taken(const hci_words *w, const hci_diagnosis *d)
     }
     if (said > 0)
         hci_words_say(w, "%s",
-                      settled
+                      is_unfinished(d) && !settled
+                          ? "; none of them was confirmed as far as was looked."
+                      : settled
                           ? "; what each would explain beside the rest is small beside the noise, or does "
                             "not hold in runs left out."
                           : "; none of them explains enough of it, or holds in runs left out.");
@@ -218,11 +225,6 @@ static bool is_of_voltages(const hci_diagnosis *d)
 {
     return d->open_voltage_off > HCI_OPEN_VOLTAGE_OFF && !any(d, HCI_FINDING_ADDED) && !d->wanders &&
            !d->means_open && d->unexplained_count == 0 && !d->disbelieved && !d->contradicted;
-}
-
-static bool is_unfinished(const hci_diagnosis *d)
-{
-    return d->search != HCI_WORK_COMPLETE;
 }
 
 /* No effect was looked for. */

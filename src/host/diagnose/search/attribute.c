@@ -54,8 +54,11 @@ static hci_status verdict_of(hci_search *s, hci_attribution *a, hci_verdict *v, 
                                 : without.fit.score - a->model.fit.score;
     status = hci_search_explained(s, &a->model.candidates, &without.candidates, &v->explained_Nm, note);
     hci_fitted_model_release(&without);
-    if (status || is_beside_unknown(a) || is_of_whole(s, v->type) || hci_search_is_over(s)) return status;
-    return hci_search_rivals(s, v->type, a, note);
+    v->compared = is_of_whole(s, v->type);
+    if (status || is_beside_unknown(a) || v->compared || hci_search_is_over(s)) return status;
+    status = hci_search_rivals(s, v->type, a, note);
+    v->compared = !hci_search_is_over(s);
+    return status;
 }
 
 /* By how much those that are not in would lower the score. */
@@ -423,6 +426,7 @@ static hci_status model_find(hci_search *s, hci_attribution *a, hci_note *note)
     for (bool dropped = s->whole_coenergy; dropped && !status;)
         status = hci_search_drop(s, &a->model, &dropped, note);
     if (s->whole_coenergy && !status) status = hci_search_keep_predictive(s, &a->model, note);
+    s->judging = true;
     if (!status) status = hci_search_drop_unsure(s, &a->model, note);
     return status ? status : hci_search_settle(s, a, note);
 }
@@ -439,7 +443,7 @@ static bool any_is_held(const hci_regression *e)
 /* The cogging torque that a slip makes leaves: what was declared is there, or nothing of it is. */
 static hci_status held_judge(hci_search *s, hci_attribution *a, hci_note *note)
 {
-    if (a->slip || a->unknown || hci_search_is_over(s) || !any_is_held(s->regression)) return HCI_OK;
+    if (a->slip || a->unknown || s->ended != HCI_WORK_COMPLETE || !any_is_held(s->regression)) return HCI_OK;
     a->slip = hci_slip_of_cogging(s->regression->machine, &a->model.candidates, true);
     if (!a->slip) return HCI_OK;
     a->unknown = true;

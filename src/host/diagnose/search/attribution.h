@@ -11,6 +11,7 @@ typedef struct {
     bool in;                         /* in the model */
     bool ambiguous;                  /* in, but others fit as well; or one of those others */
     bool established;                /* in, and shown by the runs without a current alone */
+    bool compared;                   /* with all that could stand in its place */
     const hci_effect_type *rival_of; /* the one that it could stand for */
     double gain;                     /* fall of the score by having it: positive speaks for it */
     double explained_Nm;             /* rms of what the model loses without it */

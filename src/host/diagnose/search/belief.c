@@ -190,14 +190,53 @@ static hci_status unnatural_find(const hci_search *s, const hci_candidates *cand
     return status;
 }
 
+static bool shorten(hci_candidates *candidates, const hci_effect_type *type)
+{
+    for (size_t k = 0; k < candidates->count; ++k) {
+        hci_candidate *x = &candidates->candidate[k];
+        if (!x->in || x->type != type || !hci_brakes_has_further_power(x)) continue;
+        hci_candidate_shorten(x);
+        return true;
+    }
+    return false;
+}
+
+/* A law that falls with the speed brakes all the same with fewer powers of it, and is only not known better.
+ * kept: out, whether it is in the model with those. */
+static hci_status fewer_powers_try(hci_search *s, hci_fitted_model *model, const hci_effect_type *type,
+                                   bool *kept, hci_note *note)
+{
+    hci_fitted_model fewer = {0};
+    hci_status status = hci_fitted_model_copy(model, &fewer, note);
+    *kept = false;
+    while (!status && !*kept && shorten(&fewer.candidates, type)) {
+        const hci_effect_type *driving = NULL;
+        status = hci_search_renew(s, &fewer, note);
+        if (!status) status = hci_brakes_find_driving(s->regression, &fewer.candidates, &driving, note);
+        *kept = !status && driving != type;
+    }
+    if (*kept) hci_fitted_model_replace(model, &fewer);
+    hci_fitted_model_release(&fewer);
+    return status || *kept ? status : hci_search_renew(s, model, note);
+}
+
+static hci_status unnatural_leave(hci_search *s, hci_fitted_model *model, const hci_effect_type *type,
+                                  hci_note *note)
+{
+    bool kept = false;
+    hci_status status = fewer_powers_try(s, model, type, &kept, note);
+    if (status || kept) return status;
+    status = disbelieve(s, model, type, 1.0, note);
+    hci_candidates_remove_type(&model->candidates, type);
+    return status ? status : hci_search_renew(s, model, note);
+}
+
 hci_status hci_search_keep_brakes(hci_search *s, hci_fitted_model *model, hci_note *note)
 {
     const hci_effect_type *type = NULL;
     hci_status status = unnatural_find(s, &model->candidates, &type, note);
     while (!status && type) {
-        status = disbelieve(s, model, type, 1.0, note);
-        hci_candidates_remove_type(&model->candidates, type);
-        if (!status) status = hci_search_renew(s, model, note);
+        status = unnatural_leave(s, model, type, note);
         if (!status) status = unnatural_find(s, &model->candidates, &type, note);
     }
     return status;

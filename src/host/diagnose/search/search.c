@@ -22,10 +22,11 @@
 bool hci_search_is_over(hci_search *s)
 {
     const double *work = s->regression->work;
-    if (!hci_search_is_interrupted(s) && s->ended == HCI_WORK_COMPLETE && work &&
-        *work > HCI_MOST_WORK - s->kept_work)
-        s->ended = HCI_WORK_LIMITED;
-    return s->ended != HCI_WORK_COMPLETE;
+    const double most = HCI_MOST_WORK + (s->judging ? HCI_WORK_OF_JUDGING : -s->kept_work);
+    if (hci_search_is_interrupted(s)) return true;
+    const bool much = work && *work > most;
+    if (much) s->ended = HCI_WORK_LIMITED;
+    return much || (s->ended != HCI_WORK_COMPLETE && !s->judging);
 }
 
 bool hci_search_is_interrupted(hci_search *s)

@@ -44,11 +44,12 @@ typedef struct {
     const char *doing;
     double share, until; /* of all work: done so far, and when the step at hand is done */
     double kept_work;    /* of HCI_MOST_WORK, that is left for what follows */
+    bool judging;        /* what was found, however the search has ended: there is work set apart for that */
     hci_work_end ended;  /* HCI_WORK_COMPLETE until something makes it end early */
 } hci_search;
 
 /* Whether to end with the best model so far: the user wants it, or the work is as much as it may be. Once it
- * is over it stays so. */
+ * is over it stays so, but for judging. */
 bool hci_search_is_over(hci_search *search);
 
 /* Whether the user wants the end: then nothing is judged any more that takes long. */
