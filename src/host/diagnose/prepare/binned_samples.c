@@ -21,6 +21,7 @@ enum {
     BINS_PER_TURN = 4096, /* of a mean over turns */
     OF_PERIOD = 180,      /* of them, for each electrical period in it, that are left where they are joined */
     MOST_JOINED = 4,
+    MOST_OF_MANY = 5,   /* where all runs together have many samples */
     LEAST_TURNS = 3,    /* for such a mean */
     LEAST_SPARSE = 8,   /* turns that show between the samples of one what those of the others do */
     LEAST_OF_SLOPE = 2, /* samples */
@@ -174,7 +175,8 @@ static size_t joined_to_one(const reduction *x)
 {
     const size_t periods = x->run->turn_known ? (size_t)x->pole_pairs : 1;
     const size_t most = BINS_PER_TURN / (OF_PERIOD * periods);
-    return most < 1 ? 1 : most > MOST_JOINED ? MOST_JOINED : most;
+    const size_t joined = x->many ? MOST_OF_MANY : MOST_JOINED;
+    return most < 1 ? 1 : most > joined ? joined : most;
 }
 
 /* Adds the mean of a bin to that of others at about the same angle. The currents are joined in the rotor
@@ -379,22 +381,21 @@ static bool turns_reduce(const reduction *x, const hci_turn *turns, size_t count
 
 /* Turns of a torque that was measured along time, all of them alike but for what is cut off at the ends. */
 typedef struct {
-    size_t first, count; /* of a list of turns; none: they are not */
-    double samples;      /* of one, on the average */
+    size_t count;          /* 0: they are not */
+    size_t first, samples; /* of all of them */
 } alike_turns;
 
 static alike_turns alike_find(const reduction *x, const hci_turn *turns, size_t count)
 {
     const hci_run *r = x->run;
     size_t first = 0, last = count;
-    if (r->torque_source != HCI_TORQUE_MEASURED || !r->time_s || !r->turn_known) return (alike_turns){0};
+    if (r->torque_source != HCI_TORQUE_MEASURED || !r->time_s) return (alike_turns){0};
     while (first < count && !turns[first].whole)
         ++first;
     while (last > first && !turns[last - 1].whole)
         --last;
     if (last == first || alike_end(x, turns, last, first) < last) return (alike_turns){0};
-    const double samples = (double)(behind(&turns[last - 1]) - turns[first].first);
-    return (alike_turns){first, last - first, samples / (double)(last - first)};
+    return (alike_turns){last - first, turns[first].first, behind(&turns[last - 1]) - turns[first].first};
 }
 
 /* Whether all turns are alike, and have so few samples that what is between two of them is seen in other
@@ -402,7 +403,8 @@ static alike_turns alike_find(const reduction *x, const hci_turn *turns, size_t 
 static bool is_sparse(const reduction *x, const hci_turn *turns, size_t count)
 {
     const alike_turns alike = alike_find(x, turns, count);
-    return alike.count >= LEAST_SPARSE && alike.samples < PER_PERIOD * x->finest_order;
+    return x->run->turn_known && alike.count >= LEAST_SPARSE &&
+           (double)alike.samples < PER_PERIOD * x->finest_order * (double)alike.count;
 }
 
 /* Whether all turns are alike and show the same, and means over them are far fewer samples. worth: out. False
@@ -410,11 +412,12 @@ static bool is_sparse(const reduction *x, const hci_turn *turns, size_t count)
 static bool means_weigh(const reduction *x, const hci_turn *turns, size_t count, bool *worth)
 {
     const alike_turns alike = alike_find(x, turns, count);
+    const size_t bins = BINS_PER_TURN / joined_to_one(x);
     *worth = false;
-    if (!x->many || alike.count < LEAST_TURNS ||
-        x->run->count < WORTH_MEANS * (BINS_PER_TURN / joined_to_one(x)))
-        return true;
-    return hci_repeats_find(x->run, x->statistics, x->pole_pairs, turns + alike.first, alike.count, worth);
+    if (!x->many || alike.count < LEAST_TURNS || x->run->count < WORTH_MEANS * bins) return true;
+    return hci_repeats_find(
+        &(hci_repeats_question){x->run, x->statistics, x->pole_pairs, alike.first, alike.samples, bins},
+        worth);
 }
 
 static bool any_creeps(const reduction *x, const hci_turn *turns, size_t count)
@@ -479,12 +482,13 @@ static double finest_order(const hci_machine *machine)
     return finest * machine->pole_pairs;
 }
 
-/* Whether as many samples as there are, of runs that are not too long for it, would be many. */
+/* Whether there are many samples, of each run not more than a segment has. */
 static bool are_many(const hci_run *runs, size_t count)
 {
     size_t sum = 0;
     for (size_t k = 0; k < count; ++k)
-        if (is_usable(&runs[k]) && runs[k].count <= HCI_LONGEST_SEGMENT) sum += runs[k].count;
+        if (is_usable(&runs[k]))
+            sum += runs[k].count < HCI_LONGEST_SEGMENT ? runs[k].count : HCI_LONGEST_SEGMENT;
     return sum > MANY;
 }
 

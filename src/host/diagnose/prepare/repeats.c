@@ -9,71 +9,96 @@
 #include "host/recording/rotor_frame.h"
 
 #define OF_NOISE 30.0 /* times the mean of the spectrum, of a line: of 10⁵ runs by chance in one */
-#define ALIKE    0.25 /* correlation of neighbours; what lies between samples is as much by being found there */
+#define ALIKE    0.25 /* correlation of neighbours */
 
-enum { CHANNELS = 3, POINTS = 4 /* of a polynomial */ };
+enum { CHANNELS = 3 };
 
-/* Changes from one turn to the next. */
+/* Means over bins of the turn. Angles are those within the turn. */
 typedef struct {
-    const hci_run *run;
-    double *value;     /* [CHANNELS][samples] of the torque, i_d and i_q */
-    double *change;    /* [samples] */
+    double *theta_rad, *value, *count; /* [bins]; bins without samples are left out */
+    size_t bins;
+} means;
+
+typedef struct {
+    const hci_repeats_question *q;
+    double *theta_rad; /* [samples], within the turn */
+    double *value;     /* [samples], of one channel */
     double *re, *im;   /* [size] */
-    size_t from, next; /* first sample that has a turn before it, and behind the last */
+    size_t *bin;       /* [samples], among those that are not empty */
+    size_t *place;     /* [bins] */
+    means mean;
     size_t size;
-    double turn_rad, direction;
-} changes;
+    double turn_rad;
+} departures;
 
-static void values_fill(const changes *x, const hci_run_statistics *statistics, int pole_pairs)
+static double channel_at(const hci_repeats_question *q, int channel, size_t k)
 {
-    const hci_run *r = x->run;
-    for (size_t k = 0; k < r->count; ++k) {
-        const hci_dq i = hci_run_dq(r, pole_pairs, k);
-        const double swing_Nm = statistics->swings > 0 ? hci_swings_at_Nm(statistics, r->time_s[k]) : 0.0;
-        x->value[k] = r->torque_Nm[k] - swing_Nm;
-        x->value[r->count + k] = i.d;
-        x->value[2 * r->count + k] = i.q;
+    if (channel == 0)
+        return q->run->torque_Nm[k] -
+               (q->statistics->swings > 0 ? hci_swings_at_Nm(q->statistics, q->run->time_s[k]) : 0.0);
+    const hci_dq i = hci_run_dq(q->run, q->pole_pairs, k);
+    return channel == 1 ? i.d : i.q;
+}
+
+/* Which samples are in which bin, and the mean angle of each. */
+static void bins_fill(departures *x)
+{
+    const hci_repeats_question *q = x->q;
+    memset(x->mean.theta_rad, 0, 3 * q->bins * sizeof *x->mean.theta_rad);
+    for (size_t k = 0; k < q->count; ++k) {
+        const double theta = q->run->theta_m_rad[q->first + k];
+        x->theta_rad[k] = theta - x->turn_rad * floor(theta / x->turn_rad);
+        const size_t at = (size_t)(x->theta_rad[k] / x->turn_rad * (double)q->bins);
+        x->bin[k] = at < q->bins ? at : q->bins - 1;
+        x->mean.count[x->bin[k]] += 1.0;
+    }
+    x->mean.bins = 0;
+    for (size_t b = 0; b < q->bins; ++b)
+        if (x->mean.count[b] > 0.0) {
+            x->place[b] = x->mean.bins;
+            x->mean.count[x->mean.bins++] = x->mean.count[b];
+        }
+    for (size_t k = 0; k < q->count; ++k) {
+        x->bin[k] = x->place[x->bin[k]];
+        x->mean.theta_rad[x->bin[k]] += x->theta_rad[k] / x->mean.count[x->bin[k]];
     }
 }
 
-/* Weights of so many samples from one on, of the polynomial through them at an angle; false where two of the
- * angles are the same. */
-static bool weights_find(const double *theta, double at, double weight[POINTS])
+static void values_fill(departures *x, int channel)
 {
-    for (int j = 0; j < POINTS; ++j) {
-        weight[j] = 1.0;
-        for (int k = 0; k < POINTS; ++k)
-            if (k != j) weight[j] *= (at - theta[k]) / (theta[j] - theta[k]);
-        if (!isfinite(weight[j])) return false;
+    memset(x->mean.value, 0, x->mean.bins * sizeof *x->mean.value);
+    for (size_t k = 0; k < x->q->count; ++k) {
+        x->value[k] = channel_at(x->q, channel, x->q->first + k);
+        x->mean.value[x->bin[k]] += x->value[k] / x->mean.count[x->bin[k]];
     }
-    return true;
 }
 
-/* Of one channel: each value less that at the angle one turn before. */
-static bool changes_fill(const changes *x, const double *value)
+/* On the line through the mean of a bin and that of the next one, around the turn. */
+static double between(const departures *x, size_t bin, double theta_rad)
 {
-    const double *theta = x->run->theta_m_rad;
-    size_t before = 0;
-    for (size_t k = x->from; k < x->next; ++k) {
-        const double at = theta[k] - x->direction * x->turn_rad;
-        double weight[POINTS];
-        while (before + 1 < k && x->direction * (theta[before + 1] - at) <= 0.0)
-            ++before;
-        const size_t first = before > 0 ? before - 1 : 0;
-        if (first + POINTS > x->run->count || !weights_find(theta + first, at, weight)) return false;
-        x->change[k - x->from] = value[k];
-        for (size_t j = 0; j < POINTS; ++j)
-            x->change[k - x->from] -= weight[j] * value[first + j];
-    }
-    return true;
+    const means *m = &x->mean;
+    const size_t next = bin + 1 < m->bins ? bin + 1 : 0;
+    const double round = next == 0 ? x->turn_rad : 0.0;
+    const double step = m->theta_rad[next] + round - m->theta_rad[bin];
+    const double ahead = theta_rad - m->theta_rad[bin];
+    const double share = step > 0.0 ? (ahead < 0.0 ? ahead + x->turn_rad : ahead) / step : 0.0;
+    return m->value[bin] + share * (m->value[next] - m->value[bin]);
 }
 
-static bool has_line(const changes *x)
+static void means_leave(departures *x)
 {
-    const size_t n = x->next - x->from;
+    for (size_t k = 0; k < x->q->count; ++k) {
+        const bool behind = x->theta_rad[k] < x->mean.theta_rad[x->bin[k]];
+        const size_t before = x->bin[k] > 0 ? x->bin[k] - 1 : x->mean.bins - 1;
+        x->value[k] -= between(x, behind ? before : x->bin[k], x->theta_rad[k]);
+    }
+}
+
+static bool has_line(departures *x)
+{
     double sum = 0.0, most = 0.0;
     memset(x->re, 0, 2 * x->size * sizeof *x->re);
-    memcpy(x->re, x->change, n * sizeof *x->re);
+    memcpy(x->re, x->value, x->q->count * sizeof *x->re);
     hci_fft(x->re, x->im, x->size, -1);
     for (size_t k = 0; k < x->size / 2; ++k) {
         const double power = x->re[k] * x->re[k] + x->im[k] * x->im[k];
@@ -84,46 +109,49 @@ static bool has_line(const changes *x)
 }
 
 /* Whether neighbours have something in common. */
-static bool goes_on(const changes *x)
+static bool goes_on(const departures *x)
 {
-    const size_t n = x->next - x->from;
     double square = 0.0, product = 0.0;
-    for (size_t k = 1; k < n; ++k) {
-        square += x->change[k] * x->change[k];
-        product += x->change[k] * x->change[k - 1];
+    for (size_t k = 1; k < x->q->count; ++k) {
+        square += x->value[k] * x->value[k];
+        product += x->value[k] * x->value[k - 1];
     }
     return fabs(product) > ALIKE * square;
 }
 
-static bool is_white(const changes *x)
+static bool is_white(departures *x, int channel)
 {
+    values_fill(x, channel);
+    means_leave(x);
     return !has_line(x) && !goes_on(x);
 }
 
-static bool changes_make(const hci_run *run, size_t next, changes *x)
+static bool departures_make(const hci_repeats_question *q, departures *x)
 {
-    *x = (changes){.run = run, .next = next, .size = hci_fft_size((double)run->count)};
-    x->value = hci_memory_new((CHANNELS + 1) * run->count + 2 * x->size + 1, sizeof *x->value);
-    if (!x->value) return false;
-    x->change = x->value + CHANNELS * run->count;
-    x->re = x->change + run->count;
+    *x = (departures){.q = q, .size = hci_fft_size((double)q->count)};
+    x->theta_rad = hci_memory_new(2 * q->count + 2 * x->size + 3 * q->bins, sizeof *x->theta_rad);
+    x->bin = hci_memory_new(q->count + q->bins, sizeof *x->bin);
+    if (!x->theta_rad || !x->bin) return false;
+    x->value = x->theta_rad + q->count;
+    x->re = x->value + q->count;
     x->im = x->re + x->size;
+    x->mean.theta_rad = x->im + x->size;
+    x->mean.value = x->mean.theta_rad + q->bins;
+    x->mean.count = x->mean.value + q->bins;
+    x->place = x->bin + q->count;
+    x->turn_rad = hci_turn_rad(q->run, q->pole_pairs);
     return true;
 }
 
-bool hci_repeats_find(const hci_run *run, const hci_run_statistics *statistics, int pole_pairs,
-                      const hci_turn *turns, size_t count, bool *repeats)
+bool hci_repeats_find(const hci_repeats_question *question, bool *repeats)
 {
-    changes x;
-    const hci_turn *last = &turns[count - 1];
-    if (!changes_make(run, last->first + last->count, &x)) return false;
-    x.from = turns[1].first;
-    x.turn_rad = hci_turn_rad(run, pole_pairs);
-    x.direction = hci_turn_direction(run, turns[0].first, x.next - 1);
-    values_fill(&x, statistics, pole_pairs);
-    *repeats = true;
+    departures x;
+    const bool made = departures_make(question, &x);
+    *repeats = made;
+    if (made) bins_fill(&x);
     for (int k = 0; k < CHANNELS && *repeats; ++k)
-        *repeats = changes_fill(&x, x.value + (size_t)k * run->count) && is_white(&x);
-    hci_memory_free(x.value);
-    return true;
+        *repeats = is_white(&x, k);
+    hci_memory_free(x.theta_rad);
+    hci_memory_free(x.bin);
+    return made;
 }

@@ -5,11 +5,19 @@
 
 #include "host/diagnose/prepare/turns.h"
 
-/* Of the torque less its swings and of i_d and i_q, each less that at the same angle one turn before, in
- * `count` turns that are alike and follow each other: no line in the spectrum, none at 0 either, and
- * neighbours that have next to nothing in common. repeats: out, not where angles stand still. False when
- * memory is out. O(n log n). */
-bool hci_repeats_find(const hci_run *run, const hci_run_statistics *statistics, int pole_pairs,
-                      const hci_turn *turns, size_t count, bool *repeats);
+/* Samples of a run in turns that are alike and follow each other, and in how many bins of the turn there
+ * would be means of them. */
+typedef struct {
+    const hci_run *run; /* with time, angle, currents and torque */
+    const hci_run_statistics *statistics;
+    int pole_pairs;
+    size_t first, count; /* samples */
+    size_t bins;         /* of a turn, >= 1; fewer than samples */
+} hci_repeats_question;
+
+/* Of the torque less its swings and of i_d and i_q, each less the line through the means of the bins: no line
+ * in the spectrum, and neighbours that have next to nothing in common. repeats: out. False when memory is
+ * out. O(n log n). */
+bool hci_repeats_find(const hci_repeats_question *question, bool *repeats);
 
 #endif
