@@ -282,7 +282,8 @@ static hci_status rising_leave(hci_dataset *b, const hci_runs *runs, hci_attribu
 }
 
 /* Where nothing else is understood, a torque over the angle that the runs without a current show leaves if
- * those under load deny it, or a sensor may make it. */
+ * those under load deny it, or a sensor may make it; and with it an angle that is read wrong, which shows
+ * there by that torque alone. */
 static hci_status denied_leave(hci_dataset *b, const hci_runs *runs, hci_attribution *a, hci_diagnosis *d,
                                hci_note *note)
 {
@@ -294,7 +295,7 @@ static hci_status denied_leave(hci_dataset *b, const hci_runs *runs, hci_attribu
     if (!why) return HCI_OK;
     for (size_t r = 0; r < a->types; ++r) {
         hci_verdict *v = &a->verdict[r];
-        if (!v->in || !hci_no_load_is_asked(v->type)) continue;
+        if (!v->in || !(hci_no_load_is_asked(v->type) || v->type->keeps_currents)) continue;
         v->in = v->established = v->ambiguous = false;
         hci_candidates_remove_type(&a->model.candidates, v->type);
     }

@@ -325,31 +325,13 @@ static hci_status whole_try(hci_search *s, hci_fitted_model *model, hci_fitted_m
     return hci_search_renew(s, known, note);
 }
 
-/* Goes back to single terms where these say of runs left out what the whole co-energy does not. */
-static hci_status single_try(hci_search *s, hci_fitted_model *model, hci_fitted_model *single, hci_note *note)
-{
-    bool unpredicted = false;
-    s->whole_coenergy = false;
-    hci_status status = hci_search_renew(s, single, note);
-    if (!status) status = hci_search_is_unpredicted(s, &single->candidates, &unpredicted, note);
-    if (status) return status;
-    if (!unpredicted) {
-        hci_fitted_model_replace(model, single);
-        return HCI_OK;
-    }
-    s->whole_coenergy = true;
-    return hci_search_renew(s, model, note);
-}
-
+/* Keeps the model with single terms, which may say of runs left out what the whole co-energy does not. */
 static hci_status coenergy_try(hci_search *s, hci_fitted_model *model, hci_note *note)
 {
     hci_fitted_model single = {0};
-    bool unpredicted = false;
     hci_status status = hci_fitted_model_copy(model, &single, note);
     if (!status) status = hci_search_coenergy(s, model, note);
-    if (!status && s->whole_coenergy)
-        status = hci_search_is_unpredicted(s, &model->candidates, &unpredicted, note);
-    if (!status && unpredicted) status = single_try(s, model, &single, note);
+    if (!status && s->whole_coenergy) hci_fitted_model_replace(&s->single, &single);
     hci_fitted_model_release(&single);
     return status;
 }
@@ -512,6 +494,7 @@ hci_status hci_attribute(hci_regression *regression, const hci_attribute_options
     hci_memory_free(s.residual_Nm);
     hci_known_residuals_release(&s.residuals);
     hci_fitted_model_release(&s.disbelieved.model);
+    hci_fitted_model_release(&s.single);
     if (status) hci_attribution_release(attribution);
     return status;
 }

@@ -223,18 +223,21 @@ static bool is_missed(const left_out *in, const left_out *out)
 }
 
 /* And it has to be large enough for a name: in the fit to all runs, or by what left-out runs miss, since
- * higher powers take its place where there are runs, and beside them do not. */
-static hci_status settle_part(const comparison *c, choice *how, int part, hci_note *note)
+ * higher powers take its place where there are runs, and beside them do not. present: in and out, of the
+ * choice. */
+static hci_status settle_part(const comparison *c, choice *how, int part, left_out *present, hci_note *note)
 {
-    left_out in, out;
-    how->without[part] = true;
-    hci_status status = leave_out(c, how, &out, note);
-    how->without[part] = false;
-    if (!status) status = leave_out(c, how, &in, note);
+    const bool was_without = how->without[part];
+    left_out other;
+    how->without[part] = !was_without;
+    const hci_status status = leave_out(c, how, &other, note);
     if (status) return status;
+    const left_out *in = was_without ? &other : present, *out = was_without ? present : &other;
+    how->without[part] = false;
     const bool large = explained_by(c, how, part) >= LEAST * c->search->resolution_Nm ||
-                       rms_of(c, out.square - in.square) >= c->search->resolution_Nm;
-    how->without[part] = !large || !is_missed(&in, &out);
+                       rms_of(c, out->square - in->square) >= c->search->resolution_Nm;
+    how->without[part] = !large || !is_missed(in, out);
+    if (how->without[part] != was_without) *present = other;
     return HCI_OK;
 }
 
@@ -242,14 +245,15 @@ static hci_status settle_part(const comparison *c, choice *how, int part, hci_no
 static hci_status settle_parts(const comparison *c, choice *how, bool *changed, hci_note *note)
 {
     bool settled[PARTS] = {false};
-    hci_status status = HCI_OK;
+    left_out present;
+    hci_status status = leave_out(c, how, &present, note);
     *changed = false;
     for (size_t k = 0; k < c->all.count && !status; ++k) {
         const int part = part_of(&c->all.candidate[k]);
         if (part < 0 || settled[part]) continue;
         const bool before = how->without[part];
         settled[part] = true;
-        status = settle_part(c, how, part, note);
+        status = settle_part(c, how, part, &present, note);
         *changed = *changed || how->without[part] != before;
     }
     return status;

@@ -30,10 +30,8 @@ static hci_status steps_run(hci_search *s, const hci_fitted_model *model, hci_fi
     *better = false;
     for (int step = 0; step < MOST_STEPS && added && !*better && !status && !hci_search_is_over(s); ++step) {
         const double behind = few->fit.score - model->fit.score;
-        status = hci_search_forward_few(s, few, &added, note);
-        const double left = few->fit.score - model->fit.score;
-        *better = !status && left < -HCI_AS_GOOD;
-        if (left > NEARER * behind) break;
+        status = hci_search_forward_few(s, few, model->fit.score + NEARER * behind, &added, note);
+        *better = !status && few->fit.score < model->fit.score - HCI_AS_GOOD;
     }
     return status;
 }

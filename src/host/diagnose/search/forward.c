@@ -184,6 +184,7 @@ typedef struct {
     const hci_fitted_model *present;
     hci_fitted_model best;
     double bar;
+    double least; /* that a score has to be below, whatever the handicap */
     bool refused; /* one was fitted and is not believed */
 } comparison;
 
@@ -192,7 +193,7 @@ static hci_status contender_enter(comparison *c, hci_fitted_model *candidate, do
 {
     const double score = candidate->fit.score + handicap;
     bool noticeable = false;
-    if (!(score < c->bar)) return HCI_OK;
+    if (!(score < c->bar && candidate->fit.score < c->least)) return HCI_OK;
     const hci_status status =
         hci_search_noticeable(c->search, &candidate->candidates, &c->present->candidates, &noticeable, note);
     if (!noticeable) return status;
@@ -219,7 +220,8 @@ static hci_status model_enter(comparison *c, hci_candidate_models *t, const hci_
                               double handicap, hci_note *note)
 {
     hci_fitted_model candidate = {0};
-    hci_status status = hci_candidate_model_fit(c->search, t, x, c->bar - handicap, &candidate, note);
+    hci_status status =
+        hci_candidate_model_fit(c->search, t, x, fmin(c->bar - handicap, c->least), &candidate, note);
     const bool believed = isfinite(candidate.fit.score);
     const size_t a = x->a, b = x->b;
     if (!status && believed) status = contender_enter(c, &candidate, handicap, note);
@@ -414,7 +416,7 @@ static void coming_note(hci_search *s, const hci_fitted_model *before, const hci
 static comparison comparison_from(hci_search *s, const hci_fitted_model *present)
 {
     return (comparison){
-        s, present, {{NULL, 0, 0.0}, {0.0, 0, 0.0, 0.0}}, present->fit.score - HCI_DECISIVE, false};
+        s, present, {{NULL, 0, 0.0}, {0.0, 0, 0.0, 0.0}}, present->fit.score - HCI_DECISIVE, INFINITY, false};
 }
 
 static bool is_denied(const hci_search *s, size_t type)
@@ -462,10 +464,12 @@ static void loose_leave(hci_candidate_models *t)
     t->count = count;
 }
 
-hci_status hci_search_forward_few(hci_search *s, hci_fitted_model *model, bool *added, hci_note *note)
+hci_status hci_search_forward_few(hci_search *s, hci_fitted_model *model, double least, bool *added,
+                                  hci_note *note)
 {
     comparison c = comparison_from(s, model);
     hci_candidate_models t;
+    c.least = least;
     hci_status status = hci_candidate_models_make(s, &model->candidates, true, &t, note);
     *added = false;
     if (status) return status;

@@ -12,7 +12,8 @@
 hci_status hci_search_forward(hci_search *search, hci_fitted_model *model, bool *added, hci_note *note);
 
 /* The same without a series in the currents and without what no effect explains, and with the noise as it is:
- * scores stay comparable. HCI_ERROR_MEMORY. */
-hci_status hci_search_forward_few(hci_search *search, hci_fitted_model *model, bool *added, hci_note *note);
+ * scores stay comparable. Nothing comes in that does not bring the score below `least`. HCI_ERROR_MEMORY. */
+hci_status hci_search_forward_few(hci_search *search, hci_fitted_model *model, double least, bool *added,
+                                  hci_note *note);
 
 #endif

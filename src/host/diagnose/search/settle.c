@@ -5,6 +5,7 @@
 
 #include "host/base/memory.h"
 #include "host/diagnose/candidates/empirical_term.h"
+#include "host/diagnose/search/backward.h"
 #include "host/diagnose/search/belief.h"
 #include "host/diagnose/search/coenergy.h"
 #include "host/diagnose/search/stability.h"
@@ -406,13 +407,21 @@ static bool is_unpredicted(const hci_search *s, double share)
     return share > (s->whole_coenergy ? MOSTLY : UNPREDICTED);
 }
 
-hci_status hci_search_is_unpredicted(hci_search *s, const hci_candidates *model, bool *unpredicted,
-                                     hci_note *note)
+/* Goes back to single terms where these say of runs left out what the whole co-energy does not. unpredicted:
+ * in and out. */
+static hci_status single_try(hci_search *s, hci_fitted_model *model, bool *unpredicted, hci_note *note)
 {
     double share = 0.0;
-    const hci_status status = hci_search_unpredicted(s, model, &share, note);
-    *unpredicted = !status && is_unpredicted(s, share);
-    return status;
+    if (!s->whole_coenergy || hci_candidates_types_in(&s->single.candidates) == 0) return HCI_OK;
+    s->whole_coenergy = false;
+    hci_status status = hci_search_renew(s, &s->single, note);
+    if (!status) status = hci_search_unpredicted(s, &s->single.candidates, &share, note);
+    if (!status && !is_unpredicted(s, share)) {
+        hci_fitted_model_replace(model, &s->single);
+        *unpredicted = false;
+        return hci_search_drop_unsure(s, model, note);
+    }
+    return status ? status : hci_search_renew(s, model, note);
 }
 
 /* A few numbers for as many runs describe the mean of each whatever it is, such as a zero that is
@@ -422,7 +431,9 @@ static hci_status means_judge(hci_search *s, hci_attribution *a, bool *unpredict
 {
     double share = 0.0;
     hci_status status = hci_search_unpredicted(s, &a->model.candidates, &share, note);
-    if (status || !is_unpredicted(s, share)) return status;
+    bool missed = !status && is_unpredicted(s, share);
+    if (missed) status = single_try(s, &a->model, &missed, note);
+    if (status || !missed) return status;
     s->whole_coenergy = false;
     status = is_of_ripple(s, &a->model.candidates, share, unpredicted, note);
     return status || *unpredicted ? status : means_leave(s, a, note);

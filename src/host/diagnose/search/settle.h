@@ -8,11 +8,6 @@
  * not understood: sets unknown, wanders and unexplained_Nm, and may take effects out. HCI_ERROR_MEMORY. */
 hci_status hci_search_settle(hci_search *search, hci_attribution *attribution, hci_note *note);
 
-/* Whether a model says too little of runs left out for its effects to be believed: of a whole co-energy, which
- * was chosen by them, less is asked. HCI_ERROR_MEMORY. */
-hci_status hci_search_is_unpredicted(hci_search *search, const hci_candidates *model, bool *unpredicted,
-                                     hci_note *note);
-
 /* Whether what a model leaves is noise. Finds the noise anew. HCI_ERROR_MEMORY. */
 hci_status hci_search_is_noise(hci_search *search, const hci_candidates *model, bool *is_noise,
                                hci_note *note);
