@@ -33,8 +33,8 @@ typedef struct {
 
 /* Work that a search may take; beyond it the best model so far is kept. And what judging that may take
  * besides, behind which fits end after a few steps. */
-#define HCI_MOST_WORK       6.5e10
-#define HCI_WORK_OF_JUDGING 1.2e10
+#define HCI_MOST_WORK       5.5e10
+#define HCI_WORK_OF_JUDGING 1.5e10
 
 /* The segment of a run in use that follows `after` (NULL: the first one); NULL behind the last. */
 const hci_segment *hci_regression_next(const hci_regression *regression, const hci_segment *after);
