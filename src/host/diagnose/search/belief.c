@@ -201,8 +201,8 @@ static bool shorten(hci_candidates *candidates, const hci_effect_type *type)
     return false;
 }
 
-/* A law that falls with the speed brakes all the same with fewer powers of it, and is only not known better.
- * kept: out, whether it is in the model with those. */
+/* Beside what a search that ended early has not found a law of friction may fall with the speed for that alone,
+ * and brakes all the same with fewer powers of it. kept: out, whether it is in the model with those. */
 static hci_status fewer_powers_try(hci_search *s, hci_fitted_model *model, const hci_effect_type *type,
                                    bool *kept, hci_note *note)
 {
@@ -224,7 +224,8 @@ static hci_status unnatural_leave(hci_search *s, hci_fitted_model *model, const 
                                   hci_note *note)
 {
     bool kept = false;
-    hci_status status = fewer_powers_try(s, model, type, &kept, note);
+    hci_status status = HCI_OK;
+    if (s->ended == HCI_WORK_LIMITED) status = fewer_powers_try(s, model, type, &kept, note);
     if (status || kept) return status;
     status = disbelieve(s, model, type, 1.0, note);
     hci_candidates_remove_type(&model->candidates, type);
