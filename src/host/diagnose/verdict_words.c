@@ -190,8 +190,7 @@ static void say_not_taken(const hci_words *w, const hci_diagnosis *d)
     }
     if (said > 0)
         hci_words_say(w, "%s",
-                      is_unfinished(d) && !settled
-                          ? "; none of them was confirmed as far as was looked."
+                      is_unfinished(d) && !settled ? "; none of them was confirmed as far as was looked."
                       : settled
                           ? "; what each would explain beside the rest is small beside the noise, or does "
                             "not hold in runs left out."

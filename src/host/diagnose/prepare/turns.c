@@ -15,8 +15,6 @@
 #define EVEN     0.5  /* change of speed within a turn of a free shaft, as a share of the largest */
 #define NEARLY   0.02 /* of a turn: turning back by more ends a turn, falling short by less does not count */
 
-#define A_STEP   1.5  /* mean steps from sample to sample, by which the last turn may fall short */
-
 enum { LEAST_OF_LINE = 6 /* turns */, OFTEN = 4 /* one in so many */ };
 
 double hci_turn_rad(const hci_run *run, int pole_pairs)
@@ -59,12 +57,6 @@ static void sample_add(const hci_run *r, int pole_pairs, size_t k, hci_dq *last,
     *last = i;
 }
 
-/* Whether the last turn of a run ends with it: another sample would be of the next one, but for rounding. */
-static bool ends_whole(const hci_turn *x, double farthest, double turn)
-{
-    return x->count > 1 && farthest + A_STEP * farthest / (double)(x->count - 1) >= turn;
-}
-
 /* The next turn from a sample on: until the angle has gone once round, or turns back. */
 static hci_turn turn_from(const hci_run *run, int pole_pairs, size_t first)
 {
@@ -80,7 +72,7 @@ static hci_turn turn_from(const hci_run *run, int pole_pairs, size_t first)
         sample_add(run, pole_pairs, k, &last, &sum);
     }
     sum.count = k - first;
-    sum.whole = k < run->count ? farthest >= (1.0 - NEARLY) * turn : ends_whole(&sum, farthest, turn);
+    sum.whole = farthest >= (1.0 - NEARLY) * turn; /* so it may be of the last one, that ends with the run */
     sum.d /= (double)sum.count;
     sum.q /= (double)sum.count;
     sum.noise_A2 /= (double)sum.count;

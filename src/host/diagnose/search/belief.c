@@ -201,8 +201,9 @@ static bool shorten(hci_candidates *candidates, const hci_effect_type *type)
     return false;
 }
 
-/* Beside what a search that ended early has not found a law of friction may fall with the speed for that alone,
- * and brakes all the same with fewer powers of it. kept: out, whether it is in the model with those. */
+/* Beside what a search that ended early has not found a law of friction may fall with the speed for that
+ * alone, and brakes all the same with fewer powers of it. kept: out, whether it is in the model with those.
+ */
 static hci_status fewer_powers_try(hci_search *s, hci_fitted_model *model, const hci_effect_type *type,
                                    bool *kept, hci_note *note)
 {

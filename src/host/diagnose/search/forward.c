@@ -258,7 +258,7 @@ static hci_status resonance_fit(comparison *c, const hci_candidate *x, hci_fitte
 {
     hci_status status = hci_fitted_model_copy(c->present, candidate, note);
     if (!status) status = hci_candidates_add(&candidate->candidates, x, note);
-    if (!status) status = hci_search_fit(c->search, candidate, note);
+    if (!status) status = hci_search_fit_below(c->search, candidate, c->bar, note);
     return status;
 }
 
@@ -310,7 +310,7 @@ static hci_status late_fit(comparison *c, hci_candidate *x, hci_fitted_model *ca
         candidate->candidates.candidate[known - c->present->candidates.candidate].term[0].value +=
             x->term[0].value;
     if (!status && !known) status = hci_candidates_add(&candidate->candidates, x, note);
-    if (!status) status = hci_search_fit(c->search, candidate, note);
+    if (!status) status = hci_search_fit_below(c->search, candidate, c->bar, note);
     return status;
 }
 

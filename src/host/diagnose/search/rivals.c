@@ -288,8 +288,7 @@ hci_status hci_search_rivals(hci_search *s, const hci_effect_type *type, hci_att
 
 static bool asks_few(const rivalry *r, const hci_candidate_model *x)
 {
-    return asks_own(r, x) &&
-           terms_of(r, x) <= hci_candidates_terms_in(&r->model->candidates) + VALUES_MORE;
+    return asks_own(r, x) && terms_of(r, x) <= hci_candidates_terms_in(&r->model->candidates) + VALUES_MORE;
 }
 
 hci_status hci_search_is_told(hci_search *s, const hci_fitted_model *model, const hci_effect_type *type,

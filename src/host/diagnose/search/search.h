@@ -25,14 +25,14 @@ typedef struct {
 typedef struct {
     hci_regression *regression;
     const hci_attribute_options *options;
-    double *residual_Nm, *variance;   /* of each sample, of the model looked at last */
-    hci_known_residuals residuals;    /* to be released */
-    double resolution_Nm;             /* what the model is not asked to be better than: as in the options, or
-                                       * more where it is to describe slopes */
-    int richness;                     /* of saturation */
-    hci_disbelieved disbelieved;      /* to be released */
-    uint32_t seen[HCI_MOST_SEEN];     /* which types the models of these rounds have, a bit each; none follows
-                                       * from a swap again */
+    double *residual_Nm, *variance; /* of each sample, of the model looked at last */
+    hci_known_residuals residuals;  /* to be released */
+    double resolution_Nm;           /* what the model is not asked to be better than: as in the options, or
+                                     * more where it is to describe slopes */
+    int richness;                   /* of saturation */
+    hci_disbelieved disbelieved;    /* to be released */
+    uint32_t seen[HCI_MOST_SEEN];   /* which types the models of these rounds have, a bit each; none follows
+                                     * from a swap again */
     size_t seen_count;
     double came_with[HCI_MOST_TYPES]; /* of each type, by how much the score fell when it came in alone */
     bool known_only;                  /* nothing unknown competes */

@@ -131,6 +131,33 @@ static void test_sparse_turns_become_one_mean(void)
     TEST_ASSERT_EQUAL_UINT64(0, binned.segment[0].turns);
 }
 
+/* So many runs that are short, of twelve turns: as they are, or where they are many samples together as
+ * means; five bins are one then. count: of the runs. */
+static void reduce_many(size_t count)
+{
+    hci_run many[6];
+    hci_note note = {{0}};
+    for (size_t k = 0; k < count; ++k)
+        many[k] = run;
+    hci_binned_samples_release(&binned);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_binned_samples_make(&MACHINE, NAN, many, count, &binned, &note));
+}
+
+static void test_many_short_runs_become_means(void)
+{
+    turn_steadily(12.3, 325.2, 50.0);
+    reduce_many(4);
+    TEST_ASSERT_EQUAL_UINT64(4 * run.count, binned.count);
+    reduce_many(6);
+    TEST_ASSERT_EQUAL_UINT64(6, binned.segment_count);
+    TEST_ASSERT_EQUAL_UINT64(12, binned.segment[5].turns);
+    TEST_ASSERT_TRUE(binned.count < 6 * 820);
+    for (size_t k = 0; k < run.count; ++k) /* what does not repeat */
+        run.torque_Nm[k] += 0.1 * sin(2000.0 * run.time_s[k] + 3.0 * sin(1.7 * run.time_s[k]));
+    reduce_many(6);
+    TEST_ASSERT_EQUAL_UINT64(6 * run.count, binned.count);
+}
+
 /* A steep ripple is no scatter of the samples that are at about the same angle. */
 static void test_a_steep_torque_does_not_scatter(void)
 {
@@ -381,6 +408,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_turns_become_one_mean);
     RUN_TEST(test_sparse_turns_become_one_mean);
+    RUN_TEST(test_many_short_runs_become_means);
     RUN_TEST(test_a_steep_torque_does_not_scatter);
     RUN_TEST(test_turns_of_a_wrapped_electrical_angle);
     RUN_TEST(test_other_columns_of_a_mean);

@@ -155,6 +155,19 @@ static void test_nor_one_that_falls_with_the_speed(void)
     TEST_ASSERT_EQUAL_STRING("friction", search.disbelieved.type->name);
 }
 
+/* Where the search ended early it may fall for what was not found: what of it brakes stays. */
+static void test_where_the_search_ended_early_it_keeps_what_brakes(void)
+{
+    record_brake(0.2, 0.1);
+    search.ended = HCI_WORK_LIMITED;
+    model_add("friction", "coulomb", "viscous", 0.0);
+    keep_brakes();
+    TEST_ASSERT_TRUE(model_has("friction"));
+    TEST_ASSERT_EQUAL_UINT64(1, hci_candidates_terms_in(&model.candidates));
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.15, term_in(&model.candidates, "friction", "coulomb", 0.0)->value);
+    TEST_ASSERT_NULL(search.disbelieved.type);
+}
+
 /* Nor, of a shaft that goes back and forth, any that drives. */
 static void test_nor_one_of_a_shaft_that_goes_back(void)
 {
@@ -288,6 +301,7 @@ int main(void)
     RUN_TEST(test_a_sensor_with_half_its_gain_is_not);
     RUN_TEST(test_a_friction_that_drives_is_not);
     RUN_TEST(test_nor_one_that_falls_with_the_speed);
+    RUN_TEST(test_where_the_search_ended_early_it_keeps_what_brakes);
     RUN_TEST(test_nor_one_of_a_shaft_that_goes_back);
     RUN_TEST(test_one_that_grows_is);
     RUN_TEST(test_and_one_of_stribeck);

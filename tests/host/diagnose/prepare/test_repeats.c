@@ -1,0 +1,131 @@
+/* Whether a mean over turns loses nothing: of runs whose equations stand here. */
+#define _XOPEN_SOURCE 700
+#include "host/diagnose/prepare/repeats.h"
+
+#include "host/base/memory.h"
+#include "support/recording.h"
+#include "unity.h"
+
+enum { P = 4, BINS = 819 };
+
+static const double RATE_HZ = 2000.0, NOISE_NM = 0.02, NOISE_A = 0.02;
+
+static hci_run run;
+static hci_run_statistics statistics;
+static uint64_t seed;
+
+/* What does not repeat: waves of the torque and of i_q, by their own frequency, a rise of the torque along
+ * the run, and what of its noise goes on to the next sample. */
+typedef struct {
+    double torque_Nm, current_A, wave_Hz, rise_Nm, goes_on;
+} strange;
+
+void setUp(void)
+{
+    seed = 11;
+    statistics = (hci_run_statistics){.current_A = 5.0};
+}
+
+void tearDown(void)
+{
+    hci_memory_fail_after(-1);
+    rec_release(&run);
+}
+
+static void record(size_t n, double turns, const strange *x)
+{
+    double noise = 0.0;
+    rec_release(&run);
+    run = rec_make(n);
+    for (size_t k = 0; k < n; ++k) {
+        const double t = (double)k / RATE_HZ, wave = sin(2.0 * REF_PI * x->wave_Hz * t);
+        const double theta = 0.3 + 2.0 * REF_PI * turns * (double)k / (double)n;
+        noise = x->goes_on * noise + ref_normal(&seed);
+        run.time_s[k] = t;
+        run.theta_m_rad[k] = theta;
+        rec_phases(0.0, 5.0 + 0.1 * cos(6.0 * P * theta) + x->current_A * wave + NOISE_A * ref_normal(&seed),
+                   P * theta, run.i_A + 3 * k);
+        run.torque_Nm[k] = 2.0 + 0.1 * sin(36.0 * theta) + x->torque_Nm * wave +
+                           x->rise_Nm * (double)k / (double)n + NOISE_NM * noise;
+    }
+}
+
+static bool repeats(void)
+{
+    bool answer = false;
+    const hci_repeats_question question = {&run, &statistics, P, 0, run.count, BINS};
+    TEST_ASSERT_TRUE(hci_repeats_find(&question, &answer));
+    return answer;
+}
+
+/* Twelve turns at other angles each, and three at the same ones. */
+static void test_what_repeats(void)
+{
+    const strange nothing = {0.0, 0.0, 0.0, 0.0, 0.0};
+    record(4000, 12.3, &nothing);
+    TEST_ASSERT_TRUE(repeats());
+    record(3000, 3.0, &nothing);
+    TEST_ASSERT_TRUE(repeats());
+    record(4000, -12.3, &nothing);
+    TEST_ASSERT_TRUE(repeats());
+}
+
+/* A wave of half the noise, whether the torque has it or the current; one that is taken out as a swing. */
+static void test_waves_of_their_own(void)
+{
+    record(4000, 12.3, &(strange){0.5 * NOISE_NM, 0.0, 317.0, 0.0, 0.0});
+    TEST_ASSERT_FALSE(repeats());
+    statistics.swing[0] = (hci_swing){.frequency_Hz = 317.0, .sine_Nm = 0.5 * NOISE_NM};
+    statistics.swings = 1;
+    TEST_ASSERT_TRUE(repeats());
+    statistics.swings = 0;
+    record(4000, 12.3, &(strange){0.0, 0.5 * NOISE_A, 317.0, 0.0, 0.0});
+    TEST_ASSERT_FALSE(repeats());
+}
+
+static void test_what_creeps(void)
+{
+    record(4000, 12.3, &(strange){0.0, 0.0, 0.0, 2.0 * NOISE_NM, 0.0});
+    TEST_ASSERT_FALSE(repeats());
+}
+
+/* Noise of a colour is no white noise: whether it repeats is not told. */
+static void test_noise_that_goes_on(void)
+{
+    record(4000, 12.3, &(strange){0.0, 0.0, 0.0, 0.0, 0.6});
+    TEST_ASSERT_FALSE(repeats());
+}
+
+/* Where the angle stands there is one bin, and where nothing was read no noise. */
+static void test_odd_runs(void)
+{
+    record(100, 0.0, &(strange){0.0, 0.0, 0.0, 0.0, 0.0});
+    repeats();
+    for (size_t k = 0; k < run.count; ++k)
+        run.torque_Nm[k] = run.i_A[3 * k] = run.i_A[3 * k + 1] = run.i_A[3 * k + 2] = 0.0;
+    TEST_ASSERT_TRUE(repeats());
+}
+
+static void test_memory_is_out(void)
+{
+    bool answer = true;
+    record(100, 3.0, &(strange){0.0, 0.0, 0.0, 0.0, 0.0});
+    const hci_repeats_question question = {&run, &statistics, P, 0, run.count, BINS};
+    for (long n = 0; n < 2; ++n) {
+        hci_memory_fail_after(n);
+        TEST_ASSERT_FALSE(hci_repeats_find(&question, &answer));
+        TEST_ASSERT_FALSE(answer);
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_what_repeats);
+    RUN_TEST(test_waves_of_their_own);
+    RUN_TEST(test_what_creeps);
+    RUN_TEST(test_noise_that_goes_on);
+    RUN_TEST(test_odd_runs);
+    RUN_TEST(test_memory_is_out);
+    return UNITY_END();
+}
