@@ -31,5 +31,5 @@ static bool stands_out(const hci_attribution *a, const hci_verdict *v)
 bool hci_is_unconfirmed(const hci_attribution *a, const hci_diagnosis *d, const hci_verdict *v)
 {
     return a->ended == HCI_WORK_LIMITED && v->in && v->type != &hci_empirical_type && !v->established &&
-           (!is_found_without_runs(v) || !stands_out(a, v) || is_much_held_out(d));
+           (a->unsettled || !is_found_without_runs(v) || !stands_out(a, v) || is_much_held_out(d));
 }

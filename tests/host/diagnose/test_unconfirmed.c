@@ -68,6 +68,15 @@ static void test_two_thirds_of_the_runs_left_out(void)
     TEST_ASSERT_TRUE(is_unconfirmed());
 }
 
+/* What comes of the others once another stands in its place is not known. */
+static void test_not_beside_a_better_one(void)
+{
+    a.unsettled = true;
+    TEST_ASSERT_TRUE(is_unconfirmed());
+    v.established = true;
+    TEST_ASSERT_FALSE(is_unconfirmed());
+}
+
 /* A third of what it explains, whether it was compared or not. */
 static void test_beside_something_unknown(void)
 {
@@ -98,6 +107,7 @@ int main(void)
     RUN_TEST(test_what_was_compared_is_confirmed);
     RUN_TEST(test_only_where_the_work_was_the_limit);
     RUN_TEST(test_two_thirds_of_the_runs_left_out);
+    RUN_TEST(test_not_beside_a_better_one);
     RUN_TEST(test_beside_something_unknown);
     RUN_TEST(test_runs_held_out);
     return UNITY_END();

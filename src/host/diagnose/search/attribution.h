@@ -34,7 +34,8 @@ typedef struct {
     const char *slip;   /* what looks like a slip and no effect, in words; NULL: nothing. Static */
     bool not_searched;  /* because of it no effect was looked for */
     hci_work_end ended; /* how */
-    bool unknown;       /* something is left that no effect explains, and it is not small */
+    bool unsettled; /* another effect in place of one that is in is better: the search would go on there */
+    bool unknown;   /* something is left that no effect explains, and it is not small */
     const hci_effect_type *disbelieved; /* describes the recordings best, with values that nobody would
                                          * believe; NULL: none */
     double disbelieved_share;           /* of the declared torque per ampere, that it leaves */

@@ -279,6 +279,8 @@ hci_status hci_search_rivals(hci_search *s, const hci_effect_type *type, hci_att
         bool equal = rival.fit.score < a->model.fit.score + EQUAL ||
                      is_same_ripple(&a->model, &rival, type, hci_candidate_type(with));
         if (equal) status = is_as_good(&r, &rival, &equal, note);
+        a->unsettled = a->unsettled || (equal && a->model.fit.score - rival.fit.score >
+                                                     margin_of(type, hci_candidate_type(with)));
         if (!status && equal) rival_mark(&r, with, &rival, a);
         hci_fitted_model_release(&rival);
     }
