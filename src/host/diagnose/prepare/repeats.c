@@ -10,6 +10,7 @@
 
 #define OF_NOISE 30.0 /* times the mean of the spectrum, of a line: of 10⁵ runs by chance in one */
 #define ALIKE    0.25 /* correlation of neighbours */
+#define NONE     1e-4 /* of the torque or the current of a run, rms, that is next to nothing or rounding */
 
 enum { CHANNELS = 3 };
 
@@ -94,6 +95,17 @@ static void means_leave(departures *x)
     }
 }
 
+/* Whether what is left is next to nothing, whatever its colour. */
+static bool is_nothing(const departures *x, int channel)
+{
+    const hci_run_statistics *of = x->q->statistics;
+    const double least = NONE * (channel == 0 ? of->rms_torque_Nm : of->current_A);
+    double square = 0.0;
+    for (size_t k = 0; k < x->q->count; ++k)
+        square += x->value[k] * x->value[k];
+    return square <= least * least * (double)x->q->count;
+}
+
 static bool has_line(departures *x)
 {
     double sum = 0.0, most = 0.0;
@@ -123,7 +135,7 @@ static bool is_white(departures *x, int channel)
 {
     values_fill(x, channel);
     means_leave(x);
-    return !has_line(x) && !goes_on(x);
+    return is_nothing(x, channel) || (!has_line(x) && !goes_on(x));
 }
 
 static bool departures_make(const hci_repeats_question *q, departures *x)

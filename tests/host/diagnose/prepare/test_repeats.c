@@ -23,7 +23,7 @@ typedef struct {
 void setUp(void)
 {
     seed = 11;
-    statistics = (hci_run_statistics){.current_A = 5.0};
+    statistics = (hci_run_statistics){.current_A = 5.0, .rms_torque_Nm = 2.0};
 }
 
 void tearDown(void)
