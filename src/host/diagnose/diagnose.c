@@ -22,7 +22,6 @@
 #include "host/diagnose/search/attribute.h"
 #include "host/diagnose/search/backward.h"
 #include "host/diagnose/uncertainty.h"
-#include "host/diagnose/unconfirmed.h"
 #include "host/machine/torque_constant.h"
 
 #define RESOLUTION 5e-4 /* of the largest rms torque */

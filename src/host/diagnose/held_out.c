@@ -1,8 +1,10 @@
 #include "host/diagnose/held_out.h"
+#include "host/diagnose/candidates/empirical_term.h"
 
 #include <math.h>
 
 #include "host/base/memory.h"
+#include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/fit/fit.h"
 #include "host/diagnose/fit/model.h"
 #include "host/diagnose/fit/predicted_reading.h"
@@ -342,4 +344,35 @@ hci_status hci_held_out_idle_series(hci_dataset *b, const hci_runs *runs, const 
         if (!status && !(without_Nm2 > helps(v->type) * with_Nm2)) *type = v->type;
     }
     return status;
+}
+
+/* ---- of a search that ended early ---- */
+
+#define STANDS 0.333 /* of what is explained: rms of what is not, beside which that stands */
+
+/* Whether runs held out are left with more than their noise, and that is not small beside what is explained
+ * of them. */
+static bool is_much_held_out(const hci_diagnosis *d)
+{
+    const double after = d->holdout_after_Nm * d->holdout_after_Nm;
+    const double left = after - d->holdout_noise_Nm * d->holdout_noise_Nm;
+    const double explained = d->holdout_before_Nm * d->holdout_before_Nm - after;
+    return isfinite(after) && left > STANDS * STANDS * fmax(0.0, explained);
+}
+
+static bool is_found_without_runs(const hci_verdict *v)
+{
+    return 3 * v->stays >= 2 * v->left_out;
+}
+
+/* Beside something unknown nothing is compared. */
+static bool stands_out(const hci_attribution *a, const hci_verdict *v)
+{
+    return a->unknown ? a->unexplained_Nm < STANDS * v->explained_Nm : v->compared;
+}
+
+bool hci_is_unconfirmed(const hci_attribution *a, const hci_diagnosis *d, const hci_verdict *v)
+{
+    return a->ended == HCI_WORK_LIMITED && v->in && v->type != &hci_empirical_type && !v->established &&
+           (a->unsettled || !is_found_without_runs(v) || !stands_out(a, v) || is_much_held_out(d));
 }

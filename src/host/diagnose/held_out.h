@@ -50,4 +50,12 @@ hci_status hci_held_out_misleading(hci_dataset *dataset, const hci_runs *runs,
                                    const hci_attribution *attribution, const hci_effect_type **type,
                                    hci_note *note);
 
+/* Whether an effect that a search took in which has ended at the limit of its work is not confirmed: such a
+ * search has not been at others that may describe the same. It is where it is found with other runs left out,
+ * has been compared with all that could stand in its place, and what is not understood is small beside it, in
+ * the runs that were fitted and in those held out; none is, where one that could stand in the place of
+ * another is better than that. What the runs without a current show by themselves needs none of this. */
+bool hci_is_unconfirmed(const hci_attribution *attribution, const hci_diagnosis *diagnosis,
+                        const hci_verdict *verdict);
+
 #endif

@@ -4,7 +4,7 @@
 
 #include "hci/effects/effect.h"
 #include "host/diagnose/candidates/empirical_term.h"
-#include "host/diagnose/unconfirmed.h"
+#include "host/diagnose/held_out.h"
 #include "unity.h"
 
 static hci_attribution a;
