@@ -29,6 +29,7 @@ enum {
     MOST_OPEN = 8,      /* segments of samples as they are, for each run */
     MANY = 16384,       /* samples of all runs, which then have steady ones as means however short */
     WORTH_MEANS = 2,    /* samples for each of a mean, there */
+    FINER = 4,          /* times as fine as the samples of a turn, that a mean may be there */
     CREEPING_PIECES = 4 /* means of one steady run whose torque creeps */
 };
 
@@ -414,10 +415,26 @@ static bool means_weigh(const reduction *x, const hci_turn *turns, size_t count,
     const alike_turns alike = alike_find(x, turns, count);
     const size_t bins = BINS_PER_TURN / joined_to_one(x);
     *worth = false;
-    if (!x->many || alike.count < LEAST_TURNS || x->run->count < WORTH_MEANS * bins) return true;
+    if (alike.count < LEAST_TURNS || x->run->count < WORTH_MEANS * bins ||
+        FINER * alike.samples < bins * alike.count)
+        return true;
     return hci_repeats_find(
         &(hci_repeats_question){x->run, x->statistics, x->pole_pairs, alike.first, alike.samples, bins},
         worth);
+}
+
+/* The same of many samples, as runs of a few turns have them: there the turn that ends with the run counts as
+ * a whole one, where there are means. */
+static bool means_weigh_of_many(const reduction *x, hci_turn *turns, size_t count, bool *worth)
+{
+    bool *whole = count > 0 ? &turns[count - 1].whole : NULL;
+    *worth = false;
+    if (!x->many || !whole) return true;
+    const bool was_whole = *whole;
+    *whole = was_whole || turns[count - 1].ends_run;
+    const bool done = means_weigh(x, turns, count, worth);
+    *whole = *worth ? *whole : was_whole;
+    return done;
 }
 
 static bool any_creeps(const reduction *x, const hci_turn *turns, size_t count)
@@ -437,7 +454,7 @@ static bool run_reduce(const reduction *x)
     if (x->run->only_mean) return open_segment(x, 0, x->run->count);
     bool done = hci_turns_find(x->run, x->pole_pairs, &turns, &count);
     if (done) x->samples->statistics[x->index].creeps = any_creeps(x, turns, count);
-    if (done && x->run->count <= HCI_LONGEST_SEGMENT) done = means_weigh(x, turns, count, &worth);
+    if (done && x->run->count <= HCI_LONGEST_SEGMENT) done = means_weigh_of_many(x, turns, count, &worth);
     if (done && x->run->count <= HCI_LONGEST_SEGMENT && !is_sparse(x, turns, count) && !worth)
         done = open_segments(x, 0, x->run->count);
     else if (done && hci_turns_swing(x->run, x->statistics, turns, count))

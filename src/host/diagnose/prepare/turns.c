@@ -72,7 +72,8 @@ static hci_turn turn_from(const hci_run *run, int pole_pairs, size_t first)
         sample_add(run, pole_pairs, k, &last, &sum);
     }
     sum.count = k - first;
-    sum.whole = farthest >= (1.0 - NEARLY) * turn; /* so it may be of the last one, that ends with the run */
+    sum.ends_run = k == run->count && farthest >= (1.0 - NEARLY) * turn;
+    sum.whole = k < run->count && farthest >= (1.0 - NEARLY) * turn;
     sum.d /= (double)sum.count;
     sum.q /= (double)sum.count;
     sum.noise_A2 /= (double)sum.count;

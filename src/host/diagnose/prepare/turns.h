@@ -26,6 +26,7 @@ typedef struct {
     double temperature; /* °C; 0: not recorded */
     double torque;      /* N·m; 0: not recorded */
     bool whole;         /* not cut off by the end of the run or by turning back */
+    bool ends_run;      /* it would be whole, but that the run ends with it */
 } hci_turn;
 
 /* The mechanical angle after which everything repeats. */

@@ -152,6 +152,13 @@ static void test_many_short_runs_become_means(void)
     TEST_ASSERT_EQUAL_UINT64(6, binned.segment_count);
     TEST_ASSERT_EQUAL_UINT64(12, binned.segment[5].turns);
     TEST_ASSERT_TRUE(binned.count <= 6 * 820);
+    turn_steadily(3.0, 1000.0, 50.0); /* the last one ends with the run */
+    reduce_many(6);
+    TEST_ASSERT_EQUAL_UINT64(3, binned.segment[5].turns);
+    turn_steadily(30.0, 100.0, 50.0); /* the means would be much finer than the samples */
+    reduce_many(6);
+    TEST_ASSERT_EQUAL_UINT64(6 * run.count, binned.count);
+    turn_steadily(12.3, 325.2, 50.0);
     for (size_t k = 0; k < run.count; ++k) /* what does not repeat */
         run.torque_Nm[k] += 0.1 * sin(2000.0 * run.time_s[k] + 3.0 * sin(1.7 * run.time_s[k]));
     reduce_many(6);
@@ -320,7 +327,7 @@ static void test_a_current_that_swings_with_the_turn_has_a_mean(void)
     swing(2.0);
     reduce();
     TEST_ASSERT_EQUAL_UINT64(1, binned.segment_count);
-    TEST_ASSERT_EQUAL_UINT64(20, binned.segment[0].turns); /* the last one ends with the run */
+    TEST_ASSERT_EQUAL_UINT64(19, binned.segment[0].turns); /* the last one is cut off */
 }
 
 /* Neither speed nor current change for a moment only, or the current swings beside the turn, nearly with it
