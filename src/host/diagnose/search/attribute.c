@@ -404,6 +404,7 @@ static hci_status model_find(hci_search *s, hci_attribution *a, hci_note *note)
     if (!status) status = hci_search_without_denied(s, &a->model, note);
     if (status) return status;
     hci_search_begin(s, "weighing the evidence", HCI_ROUNDS_SHARE, 1.0);
+    s->judging = s->ended == HCI_WORK_COMPLETE;
     status = predictive_find(s, &a->model, note);
     for (bool dropped = s->whole_coenergy; dropped && !status;)
         status = hci_search_drop(s, &a->model, &dropped, note);
