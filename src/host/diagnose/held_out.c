@@ -348,16 +348,33 @@ hci_status hci_held_out_idle_series(hci_dataset *b, const hci_runs *runs, const 
 
 /* ---- of a search that ended early ---- */
 
-#define STANDS 0.333 /* of what is explained: rms of what is not, beside which that stands */
+#define STANDS_STILL 0.02  /* of an error: by that it is no other one */
+#define STANDS       0.333 /* of what is explained: rms of what is not, beside which that stands */
+
+/* Whether what is left of an error is small beside what is explained of it. */
+static bool is_explained(double before_Nm, double after_Nm, double noise_Nm)
+{
+    const double left = after_Nm * after_Nm - noise_Nm * noise_Nm;
+    const double explained = before_Nm * before_Nm - after_Nm * after_Nm;
+    return left <= STANDS * STANDS * fmax(0.0, explained);
+}
+
+static bool has_risen(double before_Nm, double after_Nm)
+{
+    return after_Nm > (1.0 + STANDS_STILL) * before_Nm;
+}
 
 /* Whether runs held out are left with more than their noise, and that is not small beside what is explained
- * of them. */
+ * of them: of all, or of their means or the ripple about them where the other is no worse. */
 static bool is_much_held_out(const hci_diagnosis *d)
 {
-    const double after = d->holdout_after_Nm * d->holdout_after_Nm;
-    const double left = after - d->holdout_noise_Nm * d->holdout_noise_Nm;
-    const double explained = d->holdout_before_Nm * d->holdout_before_Nm - after;
-    return isfinite(after) && left > STANDS * STANDS * fmax(0.0, explained);
+    const bool means = is_explained(d->holdout_mean_before_Nm, d->holdout_mean_after_Nm, 0.0) &&
+                       !has_risen(d->holdout_ripple_before_Nm, d->holdout_ripple_after_Nm);
+    const bool ripple =
+        is_explained(d->holdout_ripple_before_Nm, d->holdout_ripple_after_Nm, d->holdout_noise_Nm) &&
+        !has_risen(d->holdout_mean_before_Nm, d->holdout_mean_after_Nm);
+    return isfinite(d->holdout_after_Nm) && !means && !ripple &&
+           !is_explained(d->holdout_before_Nm, d->holdout_after_Nm, d->holdout_noise_Nm);
 }
 
 static bool is_found_without_runs(const hci_verdict *v)

@@ -18,6 +18,8 @@ void setUp(void)
     memset(&d, 0, sizeof d);
     a.ended = HCI_WORK_LIMITED;
     d.holdout_before_Nm = d.holdout_after_Nm = d.holdout_noise_Nm = NAN;
+    d.holdout_mean_before_Nm = d.holdout_mean_after_Nm = NAN;
+    d.holdout_ripple_before_Nm = d.holdout_ripple_after_Nm = NAN;
     v = (hci_verdict){.type = hci_effect_type_find("back_emf"),
                       .in = true,
                       .compared = true,
@@ -101,6 +103,21 @@ static void test_runs_held_out(void)
     TEST_ASSERT_TRUE(is_unconfirmed());
 }
 
+/* A friction that describes their means and leaves the ripple as it was; not where that is larger for it. */
+static void test_means_of_runs_held_out(void)
+{
+    d.holdout_before_Nm = 0.177;
+    d.holdout_after_Nm = 0.0647;
+    d.holdout_noise_Nm = 0.0261;
+    TEST_ASSERT_TRUE(is_unconfirmed());
+    d.holdout_mean_before_Nm = 0.165;
+    d.holdout_mean_after_Nm = 0.001;
+    d.holdout_ripple_before_Nm = d.holdout_ripple_after_Nm = 0.0647;
+    TEST_ASSERT_FALSE(is_unconfirmed());
+    d.holdout_ripple_before_Nm = 0.06;
+    TEST_ASSERT_TRUE(is_unconfirmed());
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -110,5 +127,6 @@ int main(void)
     RUN_TEST(test_not_beside_a_better_one);
     RUN_TEST(test_beside_something_unknown);
     RUN_TEST(test_runs_held_out);
+    RUN_TEST(test_means_of_runs_held_out);
     return UNITY_END();
 }
