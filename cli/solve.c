@@ -29,6 +29,7 @@ enum {
     FUNDAMENTAL,
     METHOD,
     STRATEGY,
+    CURRENT_ANGLE,
     COMPARE,
     TOLERANCE,
     MAX_LOSS,
@@ -64,6 +65,10 @@ static const cli_option OPTIONS[] = {
     [STRATEGY] = {"strategy", 0, CLI_CHOICE, "NAME",
                   .help = "of pointwise (cancel: i_d cancels reluctance and cogging):",
                   .choices = STRATEGIES},
+    [CURRENT_ANGLE] = {"current-angle", 0, CLI_NUMBER, "DEG",
+                       .help = "of pointwise, in place of a strategy: kept in the rotor frame, i_d = -I sin, "
+                               "i_q = I cos; 0: i_d stays 0",
+                       .low = -180.0, .high = 180.0},
     [COMPARE] = {"compare", 0, CLI_CHOICE, "WHAT", NULL, .choices = COMPARES},
     [TOLERANCE] = {"tolerance", 0, CLI_NUMBER, "SHARE",
                    .help = "of the mean torque; an order within it is reached (1e-6)", .low = 1e-14,
@@ -125,6 +130,9 @@ static hci_status check_together(const cli_arguments *a, hci_method method, hci_
         wrong = "--max-loss goes with --auto K or --drive";
     else if (a->given[STRATEGY] && method != HCI_METHOD_POINTWISE)
         wrong = "--strategy works angle by angle; add --method pointwise";
+    else if (a->given[CURRENT_ANGLE] && (a->given[STRATEGY] || method != HCI_METHOD_POINTWISE))
+        wrong = "--current-angle works angle by angle in place of a strategy; add --method pointwise, leave "
+                "out --strategy";
     else if (!a->given[HARMONICS] &&
              (a->given[COMPARE] || method == HCI_METHOD_LU || method == HCI_METHOD_UMFPACK))
         wrong = "--compare and --method lu or umfpack need a set: --harmonics FILE";
@@ -155,11 +163,28 @@ static hci_status check_link(const cli_arguments *a, const hci_machine_data *m, 
                         "`dc_link_voltage` that is to be kept");
 }
 
-static hci_status read_options(const cli_arguments *a, hci_solve_options *o, hci_wave *held, hci_note *note)
+/* Everything that is read, in one place so that it is released in one place. */
+typedef struct {
+    hci_machine_data machine;
+    hci_effects_data effects;
+    hci_uncertainty uncertainty;
+    hci_target target;
+    hci_component_set set;
+    hci_wave held;
+    double current_angle_rad;
+    hci_solve_options options;
+    hci_note target_remark; /* of target.csv, or "" */
+    hci_note drive_remark;  /* what --drive leaves out, or "" */
+} inputs;
+
+static hci_status read_options(const cli_arguments *a, inputs *in, hci_note *note)
 {
+    hci_solve_options *o = &in->options;
     hci_status status;
     o->method = (hci_method)a->choice[METHOD];
     o->strategy = (hci_strategy)a->choice[STRATEGY];
+    in->current_angle_rad = cli_number_or(a, CURRENT_ANGLE, 0.0) * HCI_PI / 180.0;
+    o->current_angle_rad = a->given[CURRENT_ANGLE] ? &in->current_angle_rad : NULL;
     o->compare = (hci_compare)a->choice[COMPARE];
     o->choose_at_most = (size_t)cli_number_or(a, AUTO, 0.0);
     o->tolerance = cli_number_or(a, TOLERANCE, 0.0);
@@ -171,22 +196,9 @@ static hci_status read_options(const cli_arguments *a, hci_solve_options *o, hci
     status = check_together(a, o->method, note);
     if (!status) status = cli_limits_take(OPTIONS, a, o, note);
     if (status || !a->value[FUNDAMENTAL]) return status;
-    o->held = held;
-    return read_fundamental(a->value[FUNDAMENTAL], held, note);
+    o->held = &in->held;
+    return read_fundamental(a->value[FUNDAMENTAL], &in->held, note);
 }
-
-/* Everything that is read, in one place so that it is released in one place. */
-typedef struct {
-    hci_machine_data machine;
-    hci_effects_data effects;
-    hci_uncertainty uncertainty;
-    hci_target target;
-    hci_component_set set;
-    hci_wave held;
-    hci_solve_options options;
-    hci_note target_remark; /* of target.csv, or "" */
-    hci_note drive_remark;  /* what --drive leaves out, or "" */
-} inputs;
 
 /* An input that stands in the output folder under the name of a result would be replaced by it. */
 static hci_status keep_apart(const char *input, const char *folder, hci_note *note)
@@ -218,7 +230,7 @@ static hci_status read_drive(const cli_arguments *a, inputs *in, hci_note *note)
 
 static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note)
 {
-    hci_status status = read_options(a, &in->options, &in->held, note);
+    hci_status status = read_options(a, in, note);
     if (!status) status = keep_apart(a->value[TARGET], a->value[OUT], note);
     if (!status) status = keep_apart(a->value[HARMONICS], a->value[OUT], note);
     const hci_order_base base = (hci_order_base)a->choice[ORDER_BASE];

@@ -164,12 +164,31 @@ static void show_current(const hci_solution *s)
     cli_say("%s\n", has_open_phase(s) ? ", with all phases" : "");
 }
 
+/* Of the largest i_q: an i_d that was meant to be 0. */
+static const double NO_ID = 0.02;
+
+static double largest_A(hci_measured_range x)
+{
+    return fmax(fabs(x.least), fabs(x.most));
+}
+
+/* Whether an i_d is to flow although all recordings had next to none. */
+static bool is_new_id(const hci_expected_ripple *e)
+{
+    const double most_A = NO_ID * largest_A(e->measured_iq_A);
+    return e->state == HCI_RIPPLE_KNOWN && e->outside_share > 0.0 && largest_A(e->measured_id_A) < most_A &&
+           largest_A(e->id_A) > most_A;
+}
+
 static void show_expected(const hci_solution *s)
 {
     char words[1024];
     hci_expected_ripple_words(&s->expected, words, sizeof words);
     cli_say("  on the real machine\n");
     cli_say_paragraph(4, words);
+    if (is_new_id(&s->expected))
+        cli_say_paragraph(4,
+                          "No recording has an i_d: --method pointwise --current-angle 0 does without it.");
     if (!s->corrections[0]) return;
     cli_say("  sensors\n");
     cli_say_paragraph(4,

@@ -137,18 +137,22 @@ static const char *less_sensor_zero(const cli_tuning *t, const hci_effect *e)
                                                   : "";
 }
 
-/* What the table makes of it hangs on it as far as it takes an i_d, which is small. */
+/* Which of them it is matters off the line of the recorded currents only. */
 static void say_pairs(cli_tuning *t)
 {
+    double angle_deg;
+    const bool is_kept = cli_tune_line_is_kept(t, &angle_deg);
     hci_tuning_say(
         &t->tuning, HCI_TUNING_UNKNOWN,
         "Which of two orders of the back-EMF makes a ripple, 5 or 7, 11 or 13: all currents have one "
-        "direction in the rotor frame, as with i_d at 0, and the torque shows the sum of the two "
-        "alone. So much of the ripple as the table answers by another i_d may be answered wrongly.");
-    hci_tuning_say(
-        &t->tuning, HCI_TUNING_NEXT,
-        "The same load once more with an i_d beside i_q, or voltages of the open machine, driven by "
-        "another: either tells orders 5 and 7 of the back-EMF apart.");
+        "direction in the rotor frame, as with i_d at 0, and the torque shows the sum of the two alone. %s",
+        is_kept ? "The currents of the table have that direction too, along which the sum is all that counts."
+                : "So much of the ripple as the table answers by another i_d may be answered wrongly.");
+    if (!is_kept)
+        hci_tuning_say(
+            &t->tuning, HCI_TUNING_NEXT,
+            "The same load once more with an i_d beside i_q, or voltages of the open machine, driven by "
+            "another: either tells orders 5 and 7 of the back-EMF apart.");
 }
 
 /* What several effects explain equally well is not found. */

@@ -71,13 +71,33 @@ static void add_moments(const hci_run *r, moments *m)
     }
 }
 
-bool cli_tune_currents_are_in_line(const cli_tuning *t)
+static moments moments_of(const cli_tuning *t)
 {
     moments m = {0.0, 0.0, 0.0};
     for (size_t k = 0; k < t->runs.count; ++k)
         if (!cli_tune_has_no_current(t, &t->runs.run[k])) add_moments(&t->runs.run[k], &m);
+    return m;
+}
+
+bool cli_tune_currents_are_in_line(const cli_tuning *t)
+{
+    const moments m = moments_of(t);
     const double half = 0.5 * (m.dd + m.qq), spread = hypot(0.5 * (m.dd - m.qq), m.dq);
     return half > 0.0 && half - spread < ACROSS * (half + spread);
+}
+
+/* An angle of currents that a drive means to have at 0, and of sensors that differ. */
+#define LEAST_ANGLE_DEG 1.0
+
+/* Currents further from i_q heat so much more than the shortest that these are taken all the same. */
+#define MOST_ANGLE_DEG 20.0
+
+bool cli_tune_line_is_kept(const cli_tuning *t, double *angle_deg)
+{
+    const moments m = moments_of(t);
+    const double angle = -0.5 * atan2(2.0 * m.dq, m.qq - m.dd) * 180.0 / HCI_PI;
+    *angle_deg = fabs(angle) < LEAST_ANGLE_DEG ? 0.0 : angle;
+    return cli_tune_currents_are_in_line(t) && fabs(angle) <= MOST_ANGLE_DEG;
 }
 
 /* ---- ripple ---- */

@@ -206,6 +206,47 @@ static void limit_heat(cli_tuning *t, hci_solve_options *o, char text[32], cli_t
                    "within %s A rms in each phase, the heat of a sine of the rated current", text);
 }
 
+static size_t with_current(const hci_effects *list)
+{
+    size_t count = 0;
+    for (size_t k = 0; k < list->count; ++k)
+        for (size_t j = 0; j < list->effect[k].count && list->effect[k].type->in_machine; ++j)
+            count += (list->effect[k].type->parameter[list->effect[k].term[j].parameter].traits &
+                      HCI_PARAMETER_WITH_CURRENT) != 0;
+    return count;
+}
+
+static void say_angle(cli_tuning *t, const char *angle_deg)
+{
+    if (fabs(t->current_angle_rad) > 0.0)
+        hci_tuning_say(
+            &t->tuning, HCI_TUNING_WANTED,
+            "with the current at %s degrees in the rotor frame, as in the recordings: what another "
+            "direction does they do not tell",
+            angle_deg);
+    else
+        hci_tuning_say(&t->tuning, HCI_TUNING_WANTED,
+                       "with i_q alone, as in the recordings: what an i_d does they do not tell");
+}
+
+/* Where an effect was found that acts with the current, and all currents lie on one line, how it acts off
+ * that line is supposed, or one of several explanations, and not measured: the table keeps to the line. */
+static void keep_angle(cli_tuning *t, hci_solve_options *o, char text[32], cli_tune_line *c)
+{
+    double angle_deg;
+    t->keeps_angle =
+        with_current(&t->found.list) > with_current(&t->effects.list) && cli_tune_line_is_kept(t, &angle_deg);
+    cli_tune_add_option(c, t->keeps_angle ? "method" : "auto", t->keeps_angle ? "pointwise" : NULL);
+    if (!t->keeps_angle) return;
+    snprintf(text, 32, "%.3g", angle_deg);
+    sscanf(text, "%lf", &angle_deg);
+    t->current_angle_rad = angle_deg * HCI_PI / 180.0;
+    o->method = HCI_METHOD_POINTWISE;
+    o->current_angle_rad = &t->current_angle_rad;
+    cli_tune_add_option(c, "current-angle", text);
+    say_angle(t, text);
+}
+
 static void note_target(cli_tuning *t)
 {
     char mean[32];
@@ -257,14 +298,14 @@ static void leave_bound_out(hci_expected_ripple *e)
 
 hci_status cli_tune_solve(cli_tuning *t, hci_note *note)
 {
-    char machine[CLI_TUNE_PATH], target[CLI_TUNE_PATH], folder[CLI_TUNE_PATH], rms[32];
+    char machine[CLI_TUNE_PATH], target[CLI_TUNE_PATH], folder[CLI_TUNE_PATH], rms[32], angle[32];
     if (!cli_tune_can_solve(t)) return HCI_OK;
     cli_tune_path(t, "diagnose/machine", machine);
     cli_tune_path(t, "target.csv", target);
     cli_tune_path(t, "currents", folder);
     choose_torque(t);
     if (!(t->mean_Nm > 0.0) && !t->arguments->given[TUNE_TORQUE]) return HCI_OK;
-    cli_tune_line c = {{"solve", machine, "--target", target, "--auto", "--report", "-o", folder}, 8};
+    cli_tune_line c = {{"solve", machine, "--target", target, "--report", "-o", folder}, 7};
     hci_status status = read_corrected(t, machine, note);
     if (!status) status = open_torque(t, note);
     if (status) return status;
@@ -272,6 +313,7 @@ hci_status cli_tune_solve(cli_tuning *t, hci_note *note)
                                  .effects = &t->found.list,
                                  .uncertainty = &t->uncertainty,
                                  .progress = cli_progress};
+    keep_angle(t, &options, angle, &c);
     limit_heat(t, &options, rms, &c);
     note_target(t);
     cli_tune_note_line(t, &c, true);

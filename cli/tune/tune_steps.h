@@ -82,6 +82,8 @@ typedef struct {
     hci_waveform cogging; /* of a holding test; empty: none */
     bool has_load;        /* a recording has a torque sensor and a mean torque */
     double mean_Nm;       /* that is solved for */
+    bool keeps_angle;     /* all recorded currents have one direction in the rotor frame, and so have … */
+    double current_angle_rad; /* … those that are solved for: β of hci_solve_options */
     hci_machine_data corrected;
     hci_effects_data found;
     hci_uncertainty uncertainty;

@@ -65,6 +65,13 @@ check "what a load adds is said to take a sensor" [ "$(grep -c 'What load adds t
 run 0 tune waits.csv --pole-pairs 5 --flux 0.0133333333333333 --slots 12 -o even
 says '^tuned: ' 'a torque without ripple of 0.04[0-9]* N·m: what the recorded current makes' '  order 5 or 7: 0\.00[0-9]* ± ' 'Which of two orders of the back-EMF makes a ripple, 5 or 7'
 
+run 0 solve even/diagnose/machine --target even/target.csv
+says 'No recording has an i_d: --method pointwise --current-angle 0'
+run 0 solve even/diagnose/machine --target even/target.csv --method pointwise --current-angle 0
+check "the advice is given to who follows it" [ "$(grep -c 'does without' "$work/stdout")" -eq 0 ]
+run 2 solve even/diagnose/machine --target even/target.csv --current-angle 0
+says 'add --method pointwise'
+
 # ---- beside an arm no bound is stated, by tune, by solve alone and by the commands that tune prints
 
 brake_log arm.csv 0.02 1.5 0 1 5 0.03

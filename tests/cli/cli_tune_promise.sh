@@ -117,6 +117,15 @@ run 0 tune magnets --runs magnets.csv --torque 5.24 -o magnets_tuned
 says '^tuned: '
 check "what is known of the mean torque" grep -q 'Mean torque.*5\.24 N·m.*at most [0-9.]* .*N·m off (95 %)' magnets_tuned/report.html
 check "the example has no order that is off" grep -q '"order":	24' magnets_tuned/currents/summary.json
+# a machine of which the sheet says less: all recordings have i_d at 0, and so has the table, since what an i_d does was not seen
+mkdir sheet
+cp magnets/machine.csv sheet
+printf 'order,amplitude_Nm_per_A,phase_rad\n1,0.533,0\n' >sheet/back_emf.csv
+run 1 tune sheet --runs magnets.csv --torque 5.24 -o sheet_tuned
+says 'with i_q alone, as in the recordings: what an i_d does they do not tell'
+check "a doubt that is none of the table" grep -q 'The currents of the table have that direction too, along which the sum is all that counts' sheet_tuned/summary.json
+check "currents that nobody recorded" awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) c[$k] = k; next } $c["id_A"] ^ 2 > 1e-8 { exit 1 }' sheet_tuned/currents/waveform.csv
+check "another command" grep -q -- '--method pointwise --current-angle 0' sheet_tuned/commands.sh
 # a bound that is more than the torque and than the ripple bounds nothing
 cp -r magnets noisy
 echo file,role >noisy.csv

@@ -75,6 +75,7 @@ static hci_status make_task(const hci_machine_data *m, const hci_quadratic_model
     t->has_neutral = m->has_neutral;
     t->held = o->held;
     t->strategy = o->strategy;
+    t->current_angle_rad = o->method == HCI_METHOD_POINTWISE ? o->current_angle_rad : NULL;
     t->highest_rotor_order = o->highest_rotor_order;
     t->progress = o->progress;
     t->progress_context = o->progress_context;

@@ -4,7 +4,8 @@
  *
  *     i(θ) = (T*(θ) − T_cog(θ)) e⊥ / (e⊥·e⊥)        e⊥ = e − mean(e) in a star connection, else e
  *
- * which is linear in the torque (theory.md, section 6); all else is left to hci_strategy_current (section 8).
+ * which is linear in the torque (theory.md, section 6); where the current keeps its angle in the rotor frame,
+ * with what of e⊥ lies along it. All else is left to hci_strategy_current (section 8) and kept_angle.c.
  */
 #include "host/solve/pointwise.h"
 
@@ -15,6 +16,7 @@
 #include "hci/machine/frames.h"
 #include "host/base/memory.h"
 #include "host/numeric/fft.h"
+#include "host/solve/kept_angle.h"
 
 enum { SAMPLES_PER_TURN = 2048, TOP_ORDER = 512 };
 
@@ -69,7 +71,7 @@ static double angle_rad(const hci_task *t, size_t k)
 /* Whether the currents are (T* − T_cog) e⊥/(e⊥·e⊥), which is linear in the torque. */
 static bool is_linear(const hci_task *t)
 {
-    return hci_task_is_linear(t) && t->strategy == HCI_STRATEGY_MTPA;
+    return hci_task_is_linear(t) && (t->strategy == HCI_STRATEGY_MTPA || t->current_angle_rad);
 }
 
 static double linear_mean_square_A2(const hci_task *t)
@@ -97,14 +99,18 @@ static double smooth_torque(const void *context, const double x[2], double gradi
 {
     const angle *a = context;
     const double *h = a->point.slope;
+    double by[2];
     hci_sample s = {0};
+    gradient[0] = a->point.e[0] + h[0] * x[0] + h[1] * x[1];
+    gradient[1] = a->point.e[1] + h[1] * x[0] + h[2] * x[1];
+    if (!a->higher) return hci_point_torque_Nm(&a->point, x);
     s.theta_m_rad = a->theta_rad / a->higher->machine->pole_pairs;
     s.temperature_C = a->higher->temperature_C;
     hci_plane_to_abc(x, s.i_abc);
     const hci_effect_torque t = hci_effects_torque(a->higher->machine, a->higher->effects, &s, NULL);
-    hci_plane_from_abc(t.by_current, gradient);
-    gradient[0] += a->point.e[0] + h[0] * x[0] + h[1] * x[1];
-    gradient[1] += a->point.e[1] + h[1] * x[0] + h[2] * x[1];
+    hci_plane_from_abc(t.by_current, by);
+    gradient[0] += by[0];
+    gradient[1] += by[1];
     return hci_point_torque_Nm(&a->point, x) + t.torque_Nm;
 }
 
@@ -146,6 +152,14 @@ static hci_status current_at(const hci_task *t, hci_strategy strategy, size_t k,
     return hci_strategy_smooth_current(&torque, &a.point, strategy, wanted_Nm, k > 0 ? before : NULL, x);
 }
 
+/* The same where the current keeps its angle in the rotor frame. */
+static hci_status kept_at(const hci_task *t, size_t k, double wanted_Nm, double x[2])
+{
+    const angle a = {hci_machine_at(t->machine, angle_rad(t, k)), t->higher, angle_rad(t, k)};
+    const hci_smooth_torque torque = {smooth_torque, &a};
+    return hci_kept_angle_current(&torque, a.theta_rad, *t->current_angle_rad, wanted_Nm, x);
+}
+
 double hci_pointwise_mean_square_A2(const hci_task *task)
 {
     const size_t count = samples_of(task);
@@ -174,7 +188,8 @@ static bool sample_linear(const hci_task *t, size_t count, double *row)
     const double floor_value = vanishing(t);
     for (size_t k = 0; k < count; ++k) {
         double e[3], rest_Nm;
-        const double square = wanted_at(t, angle_rad(t, k), e, &rest_Nm);
+        double square = wanted_at(t, angle_rad(t, k), e, &rest_Nm);
+        if (t->current_angle_rad) square = hci_kept_angle_project(angle_rad(t, k), *t->current_angle_rad, e);
         if (square <= floor_value) return false;
         store(row, count, k, 0, 1.0 / square, e);
         store(row, count, k, 1, rest_Nm / square, e);
@@ -199,8 +214,11 @@ static void sample_strategy(const hci_task *t, size_t count, double *row, hci_so
     bool in_gap = false;
     for (size_t k = 0; k < count && !hci_task_goes_on(t, NULL); ++k) {
         const double wanted_Nm = mean_Nm + wanted_ripple_Nm(t, angle_rad(t, k));
-        double abc[3], least_iq_A;
-        const bool is_missing = current_at(t, t->strategy, k, wanted_Nm, x, &least_iq_A) != HCI_OK;
+        double abc[3], least_iq_A = 0.0;
+        const hci_status found = t->current_angle_rad
+                                     ? kept_at(t, k, wanted_Nm, x)
+                                     : current_at(t, t->strategy, k, wanted_Nm, x, &least_iq_A);
+        const bool is_missing = found != HCI_OK;
         if (is_missing) note_gap(s, angle_rad(t, k), !in_gap);
         in_gap = is_missing;
         s->least_iq_A = fmax(s->least_iq_A, to_amplitude * least_iq_A);

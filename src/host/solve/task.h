@@ -23,9 +23,10 @@ typedef struct {
     double
         highest_rotor_order; /* |n − σ| of components that are not to be chosen is above it; 0: any may be */
     double rotor_price; /* a square of current of component (n, σ) counts 1 + rotor_price (n − σ)⁸ times */
-    double compared_up_to; /* orders above are left to themselves; 0: all are compared */
-    size_t period_turns;   /* electrical turns after which every order named so far repeats */
-    hci_strategy strategy; /* of the pointwise method */
+    double compared_up_to;           /* orders above are left to themselves; 0: all are compared */
+    size_t period_turns;             /* electrical turns after which every order named so far repeats */
+    hci_strategy strategy;           /* of the pointwise method */
+    const double *current_angle_rad; /* that the current keeps in the rotor frame in its place; NULL: none */
     hci_progress *progress;
     void *progress_context;
     hci_stop *stop; /* asked before each system that is solved, and at each angle of the pointwise method */

@@ -479,6 +479,75 @@ static void test_cancel(void)
     hci_solution_release(&s);
 }
 
+/* ---- currents that keep their angle in the rotor frame ---- */
+
+static double quadratic_torque_at(double theta, const double i[3])
+{
+    double sum = declared_torque(theta, i), dq[2];
+    park(theta, i, dq);
+    for (int k = 0; k < 3; ++k)
+        sum += term_torque(&TERMS[k], theta, dq);
+    return sum;
+}
+
+/* The torque is the wanted one, and i_d = −I sin β, i_q = I cos β at each angle. */
+static void expect_kept(double angle_rad, double (*torque)(double, const double[3]), hci_solution *s)
+{
+    hci_solve_options o = options();
+    o.method = HCI_METHOD_POINTWISE;
+    o.current_angle_rad = &angle_rad;
+    o.effects = effects.list.count > 0 ? &effects.list : NULL;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, solve(&o, s));
+    TEST_ASSERT_EQUAL_UINT64(0, s->gap_count);
+    TEST_ASSERT_TRUE(worst_torque(s, 1, torque) < 1e-6);
+    for (int k = 0; k < 50; ++k) {
+        const double theta = 0.05 + 2.0 * REF_PI * k / 50;
+        double i[3], dq[2];
+        waves_at(s->current.wave, s->current.count, theta, i);
+        park(theta, i, dq);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.0, dq[0] * cos(angle_rad) + dq[1] * sin(angle_rad));
+    }
+}
+
+static void test_currents_keep_their_angle(void)
+{
+    static const double ANGLE[] = {0.0, 0.3, -0.2}, MEAN[] = {10.0, -6.0};
+    for (int k = 0; k < 6; ++k) {
+        hci_solution s;
+        want(MEAN[k % 2], 6.0, 0.5);
+        setUp();
+        expect_kept(ANGLE[k / 2], torque_at, &s);
+        hci_solution_release(&s);
+        memset(&effects, 0, sizeof effects);
+        add_terms(&effects, TERMS, 3);
+        effects.list.count = 1; /* reluctance alone */
+        expect_kept(ANGLE[k / 2], quadratic_torque_at, &s);
+        hci_solution_release(&s);
+        memset(&effects, 0, sizeof effects);
+        expect_kept(ANGLE[k / 2], declared_torque, &s);
+        TEST_ASSERT_NOT_NULL(s.per_Nm);
+        hci_solution_release(&s);
+    }
+}
+
+/* How the torque goes off the direction does not matter along it. */
+static void test_what_is_off_the_direction_is_no_matter(void)
+{
+    const double along_q = 0.0;
+    hci_solve_options o = options();
+    hci_solution known, invented;
+    want(10.0, 6.0, 0.5);
+    o.method = HCI_METHOD_POINTWISE;
+    o.current_angle_rad = &along_q;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, solve(&o, &known));
+    el_add(&effects, "saturation", "d3q0_cosine", 6.0, 5.0);
+    el_add(&effects, "saturation", "d2q1_sine", 12.0, -4.0);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, solve(&o, &invented));
+    TEST_ASSERT_TRUE(distance_A(&known, &invented) < 1e-9);
+    hci_solution_release(&known);
+    hci_solution_release(&invented);
+}
+
 /* ---- what is of second degree at most is the machine itself ---- */
 
 static void expect_equal(const hci_solution *x, const hci_solution *y)
@@ -871,6 +940,8 @@ int main(void)
     RUN_TEST(test_shortest_currents_are_the_shortest_of_all);
     RUN_TEST(test_far_into_saturation);
     RUN_TEST(test_cancel);
+    RUN_TEST(test_currents_keep_their_angle);
+    RUN_TEST(test_what_is_off_the_direction_is_no_matter);
     RUN_TEST(test_reluctance_is_an_inductance_table);
     RUN_TEST(test_linear_effects_are_the_declared_machine);
     RUN_TEST(test_reference_temperature);

@@ -82,8 +82,11 @@ typedef struct {
     const hci_wave *held;         /* a fundamental that is held fixed, or NULL to solve for it too */
     hci_method method;            /* how to solve */
     hci_strategy strategy;        /* of the pointwise method */
-    hci_compare compare;          /* which orders are rows */
-    double tolerance;             /* an order is reached within this share of the mean torque; 0: 1e-6 */
+    const double *current_angle_rad; /* of the pointwise method in place of a strategy, or NULL: β that the
+                                      * current keeps in the rotor frame, i_d = −I sin β, i_q = I cos β; at 0
+                                      * i_q alone makes the torque. Any sign of I; star currents */
+    hci_compare compare;             /* which orders are rows */
+    double tolerance;                /* an order is reached within this share of the mean torque; 0: 1e-6 */
     double loss_allowance;   /* with choose_at_most: copper loss allowed over the pointwise limit; 0: 1.10 */
     double limit_current_A;  /* largest phase current allowed; 0: none */
     double limit_voltage_V;  /* dc-link voltage that the line voltages must stay below; 0: none */
