@@ -227,7 +227,7 @@ const char *cli_tune_constant_option(const cli_tuning *t)
     return "the back-EMF of the machine";
 }
 
-double cli_tune_taken_by_inertia_Nm(const cli_tuning *t, double *kgm2)
+double cli_tune_taken_by_inertia_Nm(const cli_tuning *t, const hci_run **of)
 {
     double most_Nm = 0.0;
     for (size_t k = 0; k < t->runs.count && !(t->declared.inertia_kgm2 > 0.0); ++k) {
@@ -235,7 +235,7 @@ double cli_tune_taken_by_inertia_Nm(const cli_tuning *t, double *kgm2)
         const double made_Nm = sqrt(2.0) * cli_tune_rms_A(r) * t->reading.run.torque_constant_Nm_per_A;
         if (!(r->turns_inertia_kgm2 > 0.0) || !(r->inertia_share * made_Nm > most_Nm)) continue;
         most_Nm = r->inertia_share * made_Nm;
-        *kgm2 = r->turns_inertia_kgm2;
+        *of = r;
     }
     return most_Nm;
 }

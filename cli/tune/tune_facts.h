@@ -79,8 +79,8 @@ bool cli_tune_is_far_beyond(const cli_tuning *tune);
 double cli_tune_strange_rpm(const cli_tuning *tune);
 
 /* What the inertia that a slow turn itself asked for took out of its torque, rms, the most of all recordings;
- * kgm2: out, that inertia. 0: --inertia was given, or none was asked for. */
-double cli_tune_taken_by_inertia_Nm(const cli_tuning *tune, double *kgm2);
+ * of: out, that recording, which has the inertia. 0: --inertia was given, or none was asked for. */
+double cli_tune_taken_by_inertia_Nm(const cli_tuning *tune, const hci_run **of);
 
 /* Whether the bound on the ripple is more than the torque itself, and than the ripple of a plain sine: it
  * bounds nothing. */

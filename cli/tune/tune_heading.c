@@ -328,15 +328,17 @@ static void append_of_torque(cli_tuning *t)
 
 static void append_of_inertia(cli_tuning *t)
 {
-    double kgm2, before_Nm, after_Nm, taken_Nm = cli_tune_taken_by_inertia_Nm(t, &kgm2);
+    const hci_run *of = NULL;
+    double before_Nm, after_Nm;
+    const double taken_Nm = cli_tune_taken_by_inertia_Nm(t, &of);
     if (!t->is_solved || !(taken_Nm > 0.0)) return;
     hci_tuning_swing(&t->solution, &before_Nm, &after_Nm);
     if (taken_Nm > MUCH_INERTIA * before_Nm)
-        append(
-            t,
-            "; an inertia of %.3g kg·m² was found in the log, nobody knows how exactly, and %.2g N·m rms of "
-            "the ripple hang on it: --inertia gives it",
-            kgm2, taken_Nm);
+        append(t,
+               "; an inertia of %.3g ± %.1g kg·m² was found in the log, and %.2g N·m rms of the ripple hang "
+               "on it: "
+               "--inertia gives it",
+               of->turns_inertia_kgm2, of->turns_inertia_error_kgm2, taken_Nm);
 }
 
 /* What they do not tell of the machine, and what of them was not used. */

@@ -151,16 +151,37 @@ static void say_limits(cli_tuning *t)
     if (cli_tune_misses_slots(t)) say_missed_slots(t);
 }
 
+/* Of a slow turn against a load, of which nothing tells the inertia: the one that it matters most for. */
+static void say_inertia_limit(cli_tuning *t)
+{
+    double least_kgm2 = INFINITY;
+    for (size_t k = 0; k < t->runs.count; ++k)
+        if (t->runs.run[k].inertia_limit_kgm2 > 0.0)
+            least_kgm2 = fmin(least_kgm2, t->runs.run[k].inertia_limit_kgm2);
+    if (!t->is_solved || !isfinite(least_kgm2)) return;
+    hci_tuning_say(
+        &t->tuning, HCI_TUNING_UNKNOWN,
+        "The inertia, which beside a load nothing in these logs tells: from %.2g kg·m² of rotor and "
+        "what turns with it on, a tenth or more of the orders found is what accelerates and no "
+        "torque of the motor.",
+        least_kgm2);
+    hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
+                   "Give --inertia of the rotor with what turns with it, or the same slow turn without the "
+                   "load too, which tells it.");
+}
+
 static void say_inertia(cli_tuning *t)
 {
-    double kgm2, taken_Nm = cli_tune_taken_by_inertia_Nm(t, &kgm2);
+    const hci_run *of = NULL;
+    const double taken_Nm = cli_tune_taken_by_inertia_Nm(t, &of);
     if (!t->is_solved || !(taken_Nm > 0.0)) return;
     hci_tuning_say(
         &t->tuning, HCI_TUNING_UNKNOWN,
-        "How exact the inertia is: %.3g kg·m² is what makes the turns of the log agree, without an "
-        "error; it took %.2g N·m rms out of the torque of the current, and where it is off by a "
-        "half, so is half of that among the orders found; ± has none of it.",
-        kgm2, taken_Nm);
+        "The inertia but for its error: %.3g ± %.1g kg·m² makes the turns of the log agree (a standard "
+        "deviation of how they agree; harmonics of the back-EMF, which the sheet does not have, come on "
+        "top). It "
+        "took %.2g N·m rms out of the torque of the current; the ± of the orders has none of it.",
+        of->turns_inertia_kgm2, of->turns_inertia_error_kgm2, taken_Nm);
     hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
                    "Give --inertia of the rotor with what turns with it, or turn the shaft at a third of the "
                    "speed: then it hardly matters.");
@@ -171,6 +192,7 @@ static void say_machine(cli_tuning *t)
 {
     if (t->is_solved && cli_tune_lacks_sign(t)) say_unknown_sign(t);
     say_inertia(t);
+    say_inertia_limit(t);
     if (t->is_solved && t->is_own && !t->has_emf && !t->has_load)
         hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
                        "The torque per ampere and the back-EMF are those of the data sheet; voltages of the "

@@ -65,7 +65,7 @@ static void add_order(const way_list *l, size_t k, double constant, difference_s
     add_coordinate(l, alpha[1], made_Nm[1], s);
 }
 
-double hci_balance_inertia(const hci_turn_ways *ways, size_t count, double constant)
+double hci_balance_inertia(const hci_turn_ways *ways, size_t count, double constant, double *std_error)
 {
     way_list l = {.count = 0};
     difference_sums s = {0.0, 0.0, 0.0, 0.0};
@@ -78,6 +78,7 @@ double hci_balance_inertia(const hci_turn_ways *ways, size_t count, double const
     if (!(s.alpha2 > 0.0) || !(s.product > 0.0)) return 0.0;
     const double inertia = s.product / s.alpha2, left = fmax(s.made2 - inertia * s.product, 0.0);
     const double error = sqrt(left / (s.coordinates - 1.0) / s.alpha2);
+    if (std_error) *std_error = error;
     return error < TOLD * inertia && left < EXPLAINED * EXPLAINED * s.made2 ? inertia : 0.0;
 }
 

@@ -7,8 +7,9 @@
 
 /* The inertia for which T is the same in all directions and runs, by least squares over the orders: 0 where
  * they do not tell it within a tenth, or where it leaves half or more of what their currents differ by.
- * O(ways·orders). */
-double hci_balance_inertia(const hci_turn_ways *ways, size_t count, double torque_constant_Nm_per_A);
+ * std_error: out, may be NULL; kg·m², of how the ways agree. O(ways·orders). */
+double hci_balance_inertia(const hci_turn_ways *ways, size_t count, double torque_constant_Nm_per_A,
+                           double *std_error);
 
 /* Whether what accelerates may be more than a tenth of T in a rotor as they are: one that swings at 20 Hz in
  * its own cogging torque, J = T n/(2π·20 Hz)² at n events a turn. */

@@ -235,8 +235,35 @@ static void leave_untold(const task *t)
         hci_balance_limit(&t->ways, t->options->torque_constant_Nm_per_A));
 }
 
-/* Takes out what accelerates where that is known; inertia_kgm2: that the turns tell, or 0. */
-static hci_status settle(const task *t, double inertia_kgm2)
+/* An inertia by the turns themselves; kgm2 0: they do not tell it. */
+typedef struct {
+    double kgm2, std_error;
+} inertia;
+
+static inertia balance(const task *t, const hci_turn_ways *ways, size_t count)
+{
+    inertia of = {0.0, 0.0};
+    of.kgm2 = hci_balance_inertia(ways, count, t->options->torque_constant_Nm_per_A, &of.std_error);
+    return of;
+}
+
+static void take_inertia(const task *t, inertia of)
+{
+    t->run->turns_inertia_kgm2 = of.kgm2;
+    t->run->turns_inertia_error_kgm2 = of.std_error;
+    accelerate_by_orders(t, of.kgm2);
+}
+
+/* Beside a load, whose ripple differs forward and back too, turns do not tell the inertia. */
+static void set_limit(const task *t)
+{
+    const double limit_kgm2 = hci_balance_limit(&t->ways, t->options->torque_constant_Nm_per_A);
+    if (t->run->mean_is_unknown && !t->run->is_unsteady && isfinite(limit_kgm2))
+        t->run->inertia_limit_kgm2 = limit_kgm2;
+}
+
+/* Takes out what accelerates where that is known; of: what the turns tell. */
+static hci_status settle(const task *t, inertia of)
 {
     hci_note *remark = &t->run->remark;
     const hci_status status = judge_speed(t);
@@ -249,15 +276,17 @@ static hci_status settle(const task *t, double inertia_kgm2)
         return hold(t);
     }
     if (!t->has_ways) return hold(t);
-    if (inertia_kgm2 > 0.0) {
-        hci_note_add(remark, "an inertia of %.3g kg·m² makes the torque of its turns agree", inertia_kgm2);
-        t->run->turns_inertia_kgm2 = inertia_kgm2;
-        accelerate_by_orders(t, inertia_kgm2);
+    if (of.kgm2 > 0.0) {
+        hci_note_add(remark, "an inertia of %.3g ± %.1g kg·m² makes the torque of its turns agree", of.kgm2,
+                     of.std_error);
+        take_inertia(t, of);
     } else if (!t->run->is_unsteady && hci_balance_needs_inertia(&t->ways)) {
         leave_untold(t);
         return HCI_OK;
     }
-    return hold(t);
+    const hci_status held = hold(t);
+    if (!held && !(of.kgm2 > 0.0)) set_limit(t);
+    return held;
 }
 
 static const char *why_held(const task *t)
@@ -282,8 +311,7 @@ static hci_status free_or_held(task *t)
     const char *why = why_held(t);
     if (why != NULL) {
         hci_note_add(&run->remark, "no torque_Nm: %s, read as a holding test", why);
-        return settle(t, t->has_ways ? hci_balance_inertia(&t->ways, 1, t->options->torque_constant_Nm_per_A)
-                                     : 0.0);
+        return settle(t, t->has_ways ? balance(t, &t->ways, 1) : (inertia){0.0, 0.0});
     }
     if (t->accelerates) {
         run->torque_source = HCI_TORQUE_INERTIA;
@@ -358,13 +386,12 @@ static hci_status settle_slow(const slow_runs *s)
     const bool both = s->forward && s->backward;
     hci_status status = HCI_OK;
     if (s->used < 2 || !(both || s->told)) return HCI_OK;
-    const double inertia_kgm2 =
-        hci_balance_inertia(s->ways, s->used, s->task[0].options->torque_constant_Nm_per_A);
+    const inertia of = balance(&s->task[0], s->ways, s->used);
     for (size_t k = 0; k < s->count && !status; ++k) {
         const task *t = &s->task[k];
         hci_run *run = t->run;
         if (!t->has_ways || !(both || run->needs_inertia)) continue;
-        if (run->needs_inertia && !(inertia_kgm2 > 0.0)) continue;
+        if (run->needs_inertia && !(of.kgm2 > 0.0)) continue;
         run->torque_Nm = hci_memory_new(run->count, sizeof(double));
         if (run->torque_Nm == NULL) return memory_error(t);
         hci_note_add(&run->remark, "%s",
@@ -373,25 +400,110 @@ static hci_status settle_slow(const slow_runs *s)
                                           "another, read as a holding test");
         run->needs_inertia = false;
         run->slow_beside_others = true;
-        status = settle(t, inertia_kgm2);
+        status = settle(t, of);
     }
     return status;
 }
 
-hci_status hci_untold_torques_join(hci_run *runs, size_t count, const hci_run_options *options,
-                                   hci_note *note)
+/* ---- one inertia for all of them ---- */
+
+/* Of the recordings whose turns tell it, the mean by their errors; of one rotor on one bench. */
+static inertia told_inertia(const hci_run *runs, size_t count)
+{
+    double weight = 0.0, sum = 0.0;
+    for (size_t k = 0; k < count; ++k) {
+        const double error = runs[k].turns_inertia_error_kgm2;
+        if (!(runs[k].turns_inertia_kgm2 > 0.0) || !(error > 0.0)) continue;
+        weight += 1.0 / (error * error);
+        sum += runs[k].turns_inertia_kgm2 / (error * error);
+    }
+    return weight > 0.0 ? (inertia){sum / weight, 1.0 / sqrt(weight)} : (inertia){0.0, 0.0};
+}
+
+/* A slow turn, as it is read by now, without it. */
+static bool lacks_inertia(const hci_run *run)
+{
+    return run->torque_source == HCI_TORQUE_HOLDING && run->torque_Nm != NULL && !run->is_unsteady &&
+           !(run->turns_inertia_kgm2 > 0.0) && hci_is_slow(run, run->pole_pairs);
+}
+
+/* One that was not used for want of it. */
+static hci_status use_with(const task *t, inertia of)
+{
+    hci_run *run = t->run;
+    run->torque_Nm = hci_memory_new(run->count, sizeof(double));
+    if (run->torque_Nm == NULL) return memory_error(t);
+    run->needs_inertia = false;
+    run->slow_beside_others = true;
+    hci_note_add(&run->remark, "with the inertia of another recording it is used");
+    return settle(t, of);
+}
+
+/* One that was used without it, and of which rows are left out by now. */
+static void correct_with(const task *t, inertia of)
+{
+    hci_run *run = t->run;
+    hci_note_add(&run->remark,
+                 "the inertia of %.3g ± %.1g kg·m² that turns of another recording tell is used here too",
+                 of.kgm2, of.std_error);
+    run->inertia_limit_kgm2 = 0.0;
+    take_inertia(t, of);
+    hci_slow_turn_correct(run, run->pole_pairs, t->options->torque_constant_Nm_per_A);
+    for (size_t k = 0; k < run->count; ++k)
+        run->torque_Nm[k] = 0.0;
+}
+
+static hci_status share_inertia(hci_run *runs, size_t count, const hci_run_options *options, hci_note *note)
+{
+    const inertia of = told_inertia(runs, count);
+    hci_status status = HCI_OK;
+    for (size_t k = 0; k < count && of.kgm2 > 0.0 && !status; ++k) {
+        task t = {.run = &runs[k], .options = options, .note = note};
+        if (lacks_inertia(t.run) || t.run->needs_inertia) status = find_ways(&t);
+        if (!status && t.has_ways && t.run->needs_inertia)
+            status = use_with(&t, of);
+        else if (!status && t.has_ways)
+            correct_with(&t, of);
+        hci_turn_ways_release(&t.ways);
+    }
+    return status;
+}
+
+/* A load beside which nothing told it. */
+static void say_limits(hci_run *runs, size_t count)
+{
+    for (size_t k = 0; k < count; ++k)
+        if (runs[k].inertia_limit_kgm2 > 0.0)
+            hci_note_add(&runs[k].remark,
+                         "the inertia is not known, and beside a load the turns do not tell it: with %.2g "
+                         "kg·m² of rotor and what turns with it a tenth of what varies in the current "
+                         "accelerates",
+                         runs[k].inertia_limit_kgm2);
+}
+
+static hci_status join(hci_run *runs, size_t count, const hci_run_options *options, hci_note *note)
 {
     slow_runs s = {.count = count};
-    if (knows_inertia(options) || !(options->torque_constant_Nm_per_A > 0.0) || count < 2) return HCI_OK;
     s.task = hci_memory_new(count, sizeof *s.task);
     s.ways = hci_memory_new(count, sizeof *s.ways);
     hci_status status = s.task != NULL && s.ways != NULL
                             ? find_slow(runs, options, &s, note)
                             : hci_note_memory(note, NULL, "%zu recordings", count);
     if (!status) status = settle_slow(&s);
+    if (!status) status = share_inertia(runs, count, options, note);
     for (size_t k = 0; k < count && s.task != NULL; ++k)
         hci_turn_ways_release(&s.task[k].ways);
     hci_memory_free(s.task);
     hci_memory_free(s.ways);
+    return status;
+}
+
+hci_status hci_untold_torques_join(hci_run *runs, size_t count, const hci_run_options *options,
+                                   hci_note *note)
+{
+    hci_status status = HCI_OK;
+    if (!knows_inertia(options) && options->torque_constant_Nm_per_A > 0.0 && count > 1)
+        status = join(runs, count, options, note);
+    if (!status) say_limits(runs, count);
     return status;
 }

@@ -11,7 +11,8 @@ hci_status hci_untold_torque_set(hci_run *run, const hci_run_options *options, b
                                  hci_note *note);
 
 /* The same of slow turns that tell more beside each other than alone: forward in one recording and back in
- * another, or at two speeds. Of an inertia that is known nothing changes. HCI_ERROR_MEMORY. */
+ * another, or at two speeds; and an inertia that some of them tell is that of the others too. Of an inertia
+ * that is known nothing changes. HCI_ERROR_MEMORY. */
 hci_status hci_untold_torques_join(hci_run *runs, size_t count, const hci_run_options *options,
                                    hci_note *note);
 

@@ -120,7 +120,7 @@ static void test_forward_and_back_tell_the_inertia(void)
     read_ways(FAST, 2, 0.0);
     is_held(&run, 0.05);
     text_has("an inertia of 2", run.remark.text);
-    text_has("e-05 kg·m² makes the torque of its turns agree", run.remark.text);
+    text_has("e-08 kg·m² makes the torque of its turns agree", run.remark.text);
     TEST_ASSERT_FALSE(run.needs_inertia);
 }
 
@@ -194,7 +194,9 @@ static void test_forward_in_one_file_and_back_in_another(void)
     for (size_t k = 0; k < 2; ++k) {
         is_held(&runs.run[k], 0.05);
         text_has("forward in one recording and back in another", runs.run[k].remark.text);
-        text_has("e-05 kg·m² makes", runs.run[k].remark.text);
+        text_has("e-05 ± ", runs.run[k].remark.text);
+        TEST_ASSERT_TRUE(runs.run[k].turns_inertia_error_kgm2 > 0.0);
+        TEST_ASSERT_TRUE(fabs(runs.run[k].turns_inertia_kgm2 - INERTIA) < 0.05 * INERTIA);
     }
     hci_runs_release(&runs);
     read_two((way[]){FAST[0], FAST[0]}, &runs); /* the same way twice */

@@ -49,12 +49,12 @@ void tearDown(void)
 static void test_the_inertia_of_one_torque(void)
 {
     for (size_t runs = 1; runs <= RUNS; ++runs)
-        TEST_ASSERT_DOUBLE_WITHIN(1e-12, INERTIA, hci_balance_inertia(ways, runs, CONSTANT));
-    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0 * INERTIA, hci_balance_inertia(ways, RUNS, 2.0 * CONSTANT));
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, INERTIA, hci_balance_inertia(ways, runs, CONSTANT, NULL));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0 * INERTIA, hci_balance_inertia(ways, RUNS, 2.0 * CONSTANT, NULL));
     order[2][1][4].alpha_sine = 1e6; /* of orders that do not move nothing is taken */
     order[2][1][0].alpha_sine = 1e6;
     order[2][1][0].time_s.stands_out = true; /* nor of order 0 */
-    TEST_ASSERT_DOUBLE_WITHIN(1e-12, INERTIA, hci_balance_inertia(ways, RUNS, CONSTANT));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, INERTIA, hci_balance_inertia(ways, RUNS, CONSTANT, NULL));
 }
 
 /* An order that moves in the very last way only is one of all; orders up to the least `highest`. */
@@ -63,22 +63,22 @@ static void test_which_orders_count(void)
     for (size_t r = 0; r < RUNS; ++r)
         for (size_t d = 0; d < 2; ++d)
             order[r][d][3].time_s.stands_out = false;
-    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_balance_inertia(ways, RUNS, CONSTANT));
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_balance_inertia(ways, RUNS, CONSTANT, NULL));
     order[2][1][ORDERS].time_s.stands_out = true;
-    TEST_ASSERT_DOUBLE_WITHIN(1e-12, INERTIA, hci_balance_inertia(ways, RUNS, CONSTANT));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, INERTIA, hci_balance_inertia(ways, RUNS, CONSTANT, NULL));
     ways[1].highest = ORDERS - 1;
-    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_balance_inertia(ways, RUNS, CONSTANT));
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_balance_inertia(ways, RUNS, CONSTANT, NULL));
 }
 
 /* One way says nothing, nor do turns of two kinds, nor an inertia below 0. */
 static void test_what_tells_no_inertia(void)
 {
-    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_balance_inertia(ways, RUNS, -CONSTANT));
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_balance_inertia(ways, RUNS, -CONSTANT, NULL));
     ways[1].scale = 2.0;
-    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_balance_inertia(ways, RUNS, CONSTANT));
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_balance_inertia(ways, RUNS, CONSTANT, NULL));
     ways[0].way[1].any = false;
-    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_balance_inertia(ways, 1, CONSTANT));
-    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_balance_inertia(ways, 0, CONSTANT));
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_balance_inertia(ways, 1, CONSTANT, NULL));
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_balance_inertia(ways, 0, CONSTANT, NULL));
 }
 
 /* α = ±a in one coordinate, the current the same with an error e in the other one: of two ways, two
@@ -99,7 +99,7 @@ static void test_how_well_it_is_told(void)
             o->iq_A.sine = INERTIA * 10.0 * sign / CONSTANT;
             o->iq_A.cosine = CASE[c].share * INERTIA * 10.0 * sign / CONSTANT;
         }
-        const double found = hci_balance_inertia(ways, 1, CONSTANT);
+        const double found = hci_balance_inertia(ways, 1, CONSTANT, NULL);
         TEST_ASSERT_DOUBLE_WITHIN(1e-12, CASE[c].is_told ? INERTIA : 0.0, found);
     }
 }
@@ -123,7 +123,7 @@ static void test_what_it_leaves(void)
             }
         }
         ways[0].highest = MANY;
-        TEST_ASSERT_DOUBLE_WITHIN(1e-12, more ? 0.0 : INERTIA, hci_balance_inertia(ways, 1, CONSTANT));
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, more ? 0.0 : INERTIA, hci_balance_inertia(ways, 1, CONSTANT, NULL));
     }
 }
 

@@ -56,7 +56,12 @@ typedef struct {
     bool slow_beside_others;  /* a slow turn by what other recordings of its list tell, not by itself */
     double inertia_share;     /* rms of the inertia x acceleration that was taken out of the current, over the
                                * torque    that the current makes; 0: nothing was */
-    double turns_inertia_kgm2; /* that makes the torques of slow turns agree, taken out; 0: none was found */
+    double turns_inertia_kgm2; /* that makes the torques of slow turns agree, taken out, of this or of other
+                                * recordings of its list; 0: none was found */
+    double turns_inertia_error_kgm2; /* standard error of that, of how the turns agree */
+    double inertia_limit_kgm2; /* a slow turn against a load whose inertia is not known: from here on it takes
+                                * a tenth or more of the torque that the current makes; 0: it does not matter,
+                                * or is known */
     bool needs_inertia; /* a slow turn of which the current answers a part that only the inertia tells: it has
                          * no torque */
     bool rough_clock;   /* its stamps came early and late by turns, and were mended or are so still */
