@@ -153,6 +153,8 @@ static bool has_speed_to_count(const cli_tuning *t)
 static bool counts_pole_pairs(const cli_tuning *t, const hci_check *c)
 {
     static const char *const NAMES[] = {"current_order", "voltage_order", "angle_ratio", "frequency_speed"};
+    for (size_t k = 0; k < t->runs.count; ++k)
+        if (t->runs.run[k].counts_pole_pairs) return true;
     for (size_t k = 0; k < c->evidences; ++k)
         for (size_t n = 0; n < sizeof NAMES / sizeof *NAMES; ++n)
             if (strcmp(c->evidence[k].name, NAMES[n]) == 0) return true;
@@ -229,18 +231,36 @@ static void judge_torque(cli_tuning *t, const hci_check *c, const hci_check_evid
     append(t, "), so nothing was solved");
 }
 
+/* How the sign is turned, of i_q or of phase currents. */
+static void say_turned(cli_tuning *t, const hci_run *r)
+{
+    const bool has_phases = r->has_sum || r->computed_phase > 0;
+    char *words = t->slip;
+    const size_t used = strlen(words), size = sizeof t->slip - used;
+    if (has_phases)
+        snprintf(words + used, size, "; half a turn of the zero: --angle-offset %.6g",
+                 remainder((r->zero_is_given ? r->zero_offset_rad * 180.0 / HCI_PI : 0.0) + 180.0, 360.0));
+    else if (r->current_column[0])
+        snprintf(words + used, size, "; the sign of i_q: --column 'iq=-%s'", r->current_column);
+}
+
 /* Of a shaft that is taken to turn by itself the current cannot work against the motion. */
 static void judge_current(cli_tuning *t)
 {
     for (size_t k = 0; k < t->runs.count && !t->has_slip; ++k) {
-        if (t->runs.run[k].current_way >= 0) continue;
+        const hci_run *r = &t->runs.run[k];
+        if (r->current_way >= 0) continue;
         t->has_slip = true;
         snprintf(
             t->slip, sizeof t->slip,
-            "i_q works against the motion in %.120s: i_q has the opposite sign, or angle and speed have, "
-            "or another machine turns the shaft; a table of it could double the ripple, so nothing was "
-            "solved",
-            cli_tune_name_of(t, k));
+            "i_q works against the motion in %.120s: %s, or angle and speed have the opposite sign, or "
+            "another machine turns the shaft; a table of it could double the ripple, so nothing was solved",
+            cli_tune_name_of(t, k),
+            r->has_sum || r->computed_phase > 0
+                ? "the zero of the angle is half an electrical turn off, or the phase currents have the "
+                  "opposite sign"
+                : "i_q has the opposite sign");
+        say_turned(t, r);
     }
 }
 

@@ -44,6 +44,18 @@ bool cli_tune_lacks_sign(const cli_tuning *t)
     return lacks;
 }
 
+bool cli_tune_off_iq(const cli_tuning *t, double *offset_deg)
+{
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        if (!(fabs(r->off_iq_rad) > 0.0)) continue;
+        const double given_rad = r->zero_is_given ? r->zero_offset_rad : 0.0;
+        *offset_deg = round(180.0 / HCI_PI * (r->off_iq_rad + given_rad)) + 0.0; /* no -0 */
+        return true;
+    }
+    return false;
+}
+
 bool cli_tune_is_uncounted(const cli_tuning *t)
 {
     return t->is_solved && t->is_own && !t->counts_pole_pairs;

@@ -341,6 +341,19 @@ static void append_of_inertia(cli_tuning *t)
                of->turns_inertia_kgm2, of->turns_inertia_error_kgm2, taken_Nm);
 }
 
+static void append_of_sign(cli_tuning *t)
+{
+    double deg;
+    if (t->is_solved && cli_tune_off_iq(t, &deg))
+        append(t,
+               "; the phase currents do not lie along the i_q of this angle: where the drive keeps its i_d "
+               "at 0, "
+               "the electrical zero is off, and --angle-offset %.0f or %.0f is right",
+               deg, remainder(deg + 180.0, 360.0));
+    else if (t->is_solved && cli_tune_lacks_sign(t))
+        append(t, "; the sign of i_q is not told, and with the other one it doubles");
+}
+
 /* What they do not tell of the machine, and what of them was not used. */
 static void append_of_machine(cli_tuning *t)
 {
@@ -349,8 +362,7 @@ static void append_of_machine(cli_tuning *t)
     if (cli_tune_is_uncounted(t))
         append(t, "; that there are %d pole pairs is taken on trust, since nothing in these logs counts them",
                t->declared.model.pole_pairs);
-    if (t->is_solved && cli_tune_lacks_sign(t))
-        append(t, "; the sign of i_q is not told, and with the other one it doubles");
+    append_of_sign(t);
     if (cli_tune_is_off_sheet(t))
         append(t, "; the measured back-EMF is %.3g times that of the data sheet", t->emf_to_sheet);
     if (t->left_out > 0) append(t, "; %zu of %zu logs left out", t->left_out, t->left_out + t->kept.words);

@@ -22,11 +22,16 @@ static void say_unknown_zero(cli_tuning *t)
 
 static void say_unknown_sign(cli_tuning *t)
 {
+    double off_deg;
     hci_tuning_say(
         &t->tuning, HCI_TUNING_UNKNOWN,
         "Whether i_q drives the shaft the way in which the angle is counted: neither friction nor an "
         "acceleration in these logs tells it. With the other sign the table doubles what it is to "
-        "take away. A turn forward and one back, in one log with time and speed, tells it.");
+        "take away. %s",
+        cli_tune_off_iq(t, &off_deg)
+            ? "The phase currents do not lie along the i_q of this angle, and tell it once they do."
+            : "A turn forward and one back, in one log with time and speed, tells it, where friction takes a "
+              "twentieth or more of the current.");
     hci_tuning_say(
         &t->tuning, HCI_TUNING_NEXT,
         "Before the table is played: turn the shaft forward and back by the drive alone and log it.");

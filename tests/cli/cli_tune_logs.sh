@@ -99,6 +99,31 @@ map smooth.csv 1 0
 run 0 tune smooth.csv --pole-pairs 7 --kv 120 -o smooth
 says '^tuned: .*; the sign of i_q is not told, and with the other one it doubles' 'Whether i_q drives the shaft the way in which the angle is counted'
 
+# phase currents of a drive that keeps its i_d at 0 tell it too, count the pole pairs, and show where the zero is
+phases() { # NAME OFF_deg FRICTION_A HASTENED: the zero of the angle is so much behind the drive's; hastened by so much against its cogging torque of 0.2 A
+    awk -v off="$2" -v friction="$3" -v hastened="$4" 'BEGIN { srand(4); third = 6.283185307179586 / 3; print "time_s,theta_m_rad,ia_A,ib_A,ic_A"; way = 1
+        for (k = 0; x >= 0; ++k) { answer = 0.2 * sin(84 * x + 0.4); x += way * 0.005 * 0.6 * (1 + hastened * answer * way); if (x > 12.8) way = -1
+            q = way * friction + 0.2 * sin(84 * x + 0.4) + 0.004 * (rand() - 0.5); e = 7 * x + off / 360 * 3 * third
+            printf "%.3f,%.7f,%.5f,%.5f,%.5f\n", 0.005 * k, x, q * sin(e), q * sin(e - third), q * sin(e + third) } }' >"$1"
+}
+phases phases.csv 0 0.06 -0.5
+run 0 tune phases.csv --pole-pairs 7 --kv 120 -o phases
+says '^tuned: '
+check "phase currents tell nothing" [ "$(grep -c 'Whether i_q drives\|taken on trust' phases/summary.json)" -eq 0 ]
+phases half.csv 180 0.06 -0.5
+run 1 tune half.csv --pole-pairs 7 --kv 120 -o half
+says '^a convention is broken: .*the zero of the angle is half an electrical turn off, .*--angle-offset 180'
+run 0 tune half.csv --pole-pairs 7 --kv 120 --angle-offset 180 -o half
+phases third.csv 60 0.06 -0.5
+run 1 tune third.csv --pole-pairs 7 --kv 120 -o third
+says '^tuned, with something left open: .*do not lie along the i_q of this angle: .*--angle-offset 60 or -120 is right'
+run 0 tune third.csv --pole-pairs 7 --kv 120 --angle-offset 60 -o third
+# a current without friction has a mean that turns round with the motion, where the shaft is longer where it is slow, and is accused of nothing
+phases ideal_phases.csv 0 0 0.25
+awk -F, -v OFS=, 'NR == 1 { print "time_s,theta_m_rad,iq_A"; next } { e = 7 * $2; print $1, $2, 2 / 3 * ($3 * sin(e) + $4 * sin(e - 2.0943951) + $5 * sin(e + 2.0943951)) }' ideal_phases.csv >ideal.csv
+"$hci_solve" tune ideal.csv --pole-pairs 7 --kv 120 -o ideal >stdout 2>stderr
+check "a shaft without friction is accused" [ "$(grep -c 'works against' ideal/summary.json)" -eq 0 ]
+
 # ---- an offset of the angle, with which the logs were read, is in the table
 
 run 0 tune smooth.csv --pole-pairs 7 --kv 120 --angle-offset -31 -o offset

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "hci/math/harmonic.h"
 #include "host/base/memory.h"
 #include "host/numeric/statistics.h"
 #include "host/recording/rotor_frame.h"
@@ -22,6 +23,10 @@ enum { FEW_WINDOWS = 32, MOST_WINDOWS = 512, LEAST_WINDOWS = 16, LEAST_SAMPLES =
 
 /* Of the rms of the current, a friction that stands out. */
 #define STANDS_OUT 0.1
+
+/* Of the rms of all samples: a shaft that its cogging torque slows down and hastens is longer where it is
+ * slow, and so has a mean of the current that answers it, which turns round with the motion too. */
+#define OF_ALL 0.05
 
 /* Of windows in one direction that are the other: noise of a speed near 0. */
 #define OTHER_WAY 0.05
@@ -211,6 +216,7 @@ static hci_effort fit(const row *r, size_t rows, size_t unknowns, double square)
     if (has_slope && fabs(a) > 0.0) effort.accelerating = in_errors(a, variance * e.ss / det);
     if (fabs(c) > 0.0) effort.braking = in_errors(c, variance * (has_slope ? e.aa / det : 1.0 / e.ss));
     effort.share = fmax(-1.0, fmin(1.0, c / sqrt(square)));
+    effort.of_all = c; /* for now */
     return effort;
 }
 
@@ -288,6 +294,13 @@ static hci_effort fit_beside_load(row *r, size_t rows)
     return effort;
 }
 
+static hci_effort over_all(hci_effort effort, const hci_effort_samples *s)
+{
+    const double square = hci_mean_square_about(s->iq, s->count, 0.0);
+    effort.of_all = square > 0.0 ? effort.of_all / sqrt(square) : 0.0;
+    return effort;
+}
+
 hci_effort hci_effort_find(const hci_effort_samples *samples)
 {
     window w[MOST_WINDOWS];
@@ -297,8 +310,9 @@ hci_effort hci_effort_find(const hci_effort_samples *samples)
     const size_t count = cut_to_motion(samples, w, &follows), rows = rows_of(w, count, r);
     hci_effort effort = rows < LEAST_WINDOWS - 2 ? (hci_effort){0} : fit_motion(r, rows);
     if (!follows) effort.accelerating = 0.0;
+    effort = over_all(effort, samples);
     if (hci_effort_way(&effort) != 0 || !effort.has_both_ways || !samples->theta_m_rad) return effort;
-    const hci_effort beside = fit_beside_load(r, rows);
+    const hci_effort beside = over_all(fit_beside_load(r, rows), samples);
     return hci_effort_way(&beside) != 0 ? beside : effort;
 }
 
@@ -310,16 +324,42 @@ bool hci_effort_accelerates(const hci_effort *effort)
 int hci_effort_way(const hci_effort *effort)
 {
     if (hci_effort_accelerates(effort)) return effort->accelerating > 0.0 ? 1 : -1;
-    if (fabs(effort->braking) > SURE && fabs(effort->share) > STANDS_OUT)
+    if (fabs(effort->braking) > SURE && fabs(effort->share) > STANDS_OUT && fabs(effort->of_all) > OF_ALL)
         return effort->braking > 0.0 ? 1 : -1;
     return 0;
 }
 
-/* i_q of phase currents hangs on the zero of the angle. */
-static bool has_own_iq(const hci_run *run)
+static bool has_phases(const hci_run *run)
 {
-    return run->i_A != NULL && !run->has_sum && run->computed_phase == 0 && run->theta_m_rad != NULL &&
-           run->speed_rad_per_s != NULL;
+    return run->has_sum || run->computed_phase > 0;
+}
+
+/* From i_q, of currents that are one. */
+#define ALONG_IQ_RAD (HCI_PI / 9.0)
+
+/* i_q of phase currents hangs on the zero of the angle: it is the drive's where that is right, or half a turn
+ * off. */
+static bool tells_iq(const hci_run *run)
+{
+    double angle_rad;
+    if (run->i_A == NULL || run->theta_m_rad == NULL || run->speed_rad_per_s == NULL) return false;
+    return !has_phases(run) || (hci_run_currents_in_line(run, &angle_rad) && fabs(angle_rad) < ALONG_IQ_RAD);
+}
+
+/* Where they lie on another line, the drive has another zero of the angle, unless it makes an i_d. */
+static double off_iq(const hci_run *run)
+{
+    double angle_rad;
+    if (!has_phases(run) || run->i_A == NULL || !hci_run_currents_in_line(run, &angle_rad)) return 0.0;
+    return fabs(angle_rad) > ALONG_IQ_RAD ? angle_rad : 0.0;
+}
+
+/* A number of pole pairs that is not the motor's makes phase currents turn round in the rotor frame. */
+static bool counts_pole_pairs(const hci_run *run)
+{
+    double angle_rad;
+    return has_phases(run) && run->turn_known && !run->is_electrical && run->i_A != NULL &&
+           hci_run_currents_in_line(run, &angle_rad);
 }
 
 /* work: twice the samples. */
@@ -338,14 +378,19 @@ static int way_of(const hci_run *run, double *work)
 
 hci_status hci_run_effort_set(hci_run *run, hci_note *note)
 {
-    if (!has_own_iq(run)) return HCI_OK;
+    run->counts_pole_pairs = counts_pole_pairs(run);
+    run->off_iq_rad = off_iq(run);
+    if (!tells_iq(run)) return HCI_OK;
     double *work = hci_memory_new(run->count, 2 * sizeof *work);
     if (work == NULL) return hci_note_memory(note, run->name, "%zu samples", run->count);
     run->current_way = way_of(run, work);
     hci_memory_free(work);
     if (run->current_way < 0)
         hci_note_add(&run->remark,
-                     "i_q works against the motion, as that of no motor does which turns by itself: i_q, or "
-                     "angle and speed together, have the opposite sign, or another machine turns the shaft");
+                     "i_q works against the motion, as that of no motor does which turns by itself: %s, or "
+                     "angle and speed together, have the opposite sign, or another machine turns the shaft",
+                     has_phases(run) ? "the zero of the angle is half an electrical turn off, or the phase "
+                                       "currents"
+                                     : "i_q");
     return HCI_OK;
 }

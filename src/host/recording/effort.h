@@ -21,7 +21,8 @@ typedef struct {
 typedef struct {
     double accelerating; /* a over its standard error; 0: not told */
     double braking;      /* c over its standard error; 0: not told */
-    double share;        /* c over the rms of i_q, without these orders, from -1 to 1 */
+    double share;        /* c over the rms of i_q in the windows, without these orders, from -1 to 1 */
+    double of_all;       /* c over the rms of i_q in all samples */
     bool has_both_ways;  /* forward and back: c has no weight in it */
 } hci_effort;
 
@@ -35,8 +36,9 @@ int hci_effort_way(const hci_effort *effort);
 /* Whether the sign is told by what accelerates. */
 bool hci_effort_accelerates(const hci_effort *effort);
 
-/* Sets current_way of a run whose i_q the drive has recorded, with a remark where it is -1. Rows without time
- * are taken as evenly spaced. HCI_ERROR_MEMORY. O(samples). */
+/* Sets current_way of a run whose i_q the drive has recorded, or whose phase currents lie along i_q, with a
+ * remark where it is -1, and counts_pole_pairs. Rows without time are taken as evenly spaced.
+ * HCI_ERROR_MEMORY. O(samples). */
 hci_status hci_run_effort_set(hci_run *run, hci_note *note);
 
 #endif

@@ -18,6 +18,22 @@ void hci_phases_of_dq(hci_dq x, double theta_e_rad, double abc[3])
     hci_clarke_inverse(hci_park_inverse(x, theta_e_rad), abc);
 }
 
+/* ---- one line ---- */
+
+#define ACROSS 0.25 /* of the mean square along it, that offsets of sensors and noise may make */
+
+bool hci_run_currents_in_line(const hci_run *run, double *angle_rad)
+{
+    double dd = 0.0, dq = 0.0, qq = 0.0;
+    for (size_t k = 0; k < run->count && run->theta_m_rad; ++k) {
+        const hci_dq i = hci_run_dq(run, run->pole_pairs, k);
+        dd += i.d * i.d, dq += i.d * i.q, qq += i.q * i.q;
+    }
+    const double half = 0.5 * (dd + qq), spread = hypot(0.5 * (dd - qq), dq);
+    *angle_rad = -0.5 * atan2(2.0 * dq, qq - dd);
+    return half > 0.0 && half - spread < ACROSS * (half + spread);
+}
+
 /* ---- crests ---- */
 
 #define ALIKE 1e-6 /* of the extreme value: the same number, turned to phases and back */

@@ -16,6 +16,11 @@ hci_dq hci_sample_dq(const hci_sample *sample, int pole_pairs);
 /* Phase quantities of a vector in the rotor frame at an electrical angle. */
 void hci_phases_of_dq(hci_dq x, double theta_e_rad, double abc[3]);
 
+/* Whether the currents lie on one line of the rotor frame, by their mean squares along it and across: those
+ * of a drive that keeps its own i_d at 0 do, with the right number of pole pairs. iq_share: out, cosine of
+ * the angle between that line and i_q, 0 to 1. O(samples). */
+bool hci_run_currents_in_line(const hci_run *run, double *iq_share);
+
 /* Whether a phase current or i_q stands at its least or its largest value in 1 % of the samples or more, and
  * in fewer than half of them, and five times as often as within a twentieth of it, where there are some: a
  * current that was rounded coarsely stands at its other values as well. Before anything is taken out of the

@@ -452,6 +452,7 @@ static hci_status read_currents(reader *r)
     if (!has(r, HCI_RUN_IQ) && has(r, HCI_RUN_TORQUE_COMPUTED) && r->options->torque_constant_Nm_per_A > 0.0)
         return read_current_of_torque(r);
     r->no_currents = !has(r, HCI_RUN_IQ);
+    keep_header(r, HCI_RUN_IQ, r->run->current_column);
     if (r->no_currents && r->run->theta_m_rad != NULL)
         hci_note_add(&r->run->remark, "no currents: taken as 0");
     if (r->no_currents) hci_run_columns_current_like(&r->columns, r->run->current_like);

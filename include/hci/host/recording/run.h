@@ -67,9 +67,15 @@ typedef struct {
     bool rough_clock;   /* its stamps came early and late by turns, and were mended or are so still */
     char angle_like[HCI_RUN_NAME]; /* zero_is_unknown, and this, as --column takes it, may read an angle that
                                     * stands in the file; "": none */
-    int current_way;  /* of a run without a torque sensor, whose i_q was recorded: 1 where it accelerates and
-                       * overcomes friction, -1 where it works against the motion, 0 where that is not told */
-    double swept_rad; /* mechanical, of all rows, where some of a slow turn were left out; else 0 */
+    int current_way; /* of a run without a torque sensor, whose i_q was recorded, or phase currents that lie
+                      * along i_q: 1 where it accelerates and overcomes friction, -1 where it works against
+                      * the motion, 0 where that is not told */
+    bool counts_pole_pairs; /* phase currents beside a mechanical angle keep to one line of the rotor frame */
+    double off_iq_rad; /* angle of that line from i_q, electrical, of phase currents without a torque sensor,
+                        * -π/2 to π/2, where it is none of noise: the zero of the angle is another one, or
+                        * the drive makes an i_d; else 0 */
+    char current_column[HCI_RUN_NAME]; /* header of the column of i_q; "": none */
+    double swept_rad;     /* mechanical, of all rows, where some of a slow turn were left out; else 0 */
     bool torque_is_typed; /* one number in every row beside a current that varies: no measurement, not used */
     double torque_typed_Nm; /* that number; 0 where there is none */
     bool is_electrical;     /* an electrical angle was recorded; else its zero is supposed to be that of the
