@@ -103,6 +103,24 @@ static bool is_unstable(const hci_verdict *v)
     return v->in && !v->ambiguous && v->stays < v->left_out;
 }
 
+static bool acts_with_current_alone(const hci_effect_type *type)
+{
+    for (size_t k = 0; k < type->parameter_count; ++k)
+        if (!(type->parameter[k].traits & HCI_PARAMETER_WITH_CURRENT)) return false;
+    return true;
+}
+
+/* Without a current nothing is seen of an effect of the current: there the models differ by what the one
+ * without it has put into other terms, which such runs tell whether or not the effect is there. */
+static void leave_currentless_out(const comparison *c, const pair *p)
+{
+    const hci_verdict *v = p->verdict;
+    if (!acts_with_current_alone(v->type) || (!v->in && !acts_with_current_alone(v->rival_of))) return;
+    for (size_t k = 0; k < c->points; ++k)
+        if (isfinite(c->point[k].iq_A) && !(hypot(c->point[k].id_A, c->point[k].iq_A) > 0.0))
+            p->chi_square[k] = 0.0;
+}
+
 static hci_status pair_add(const hci_regression *e, const hci_attribution *a, const hci_verdict *v,
                            comparison *c, hci_note *note)
 {
@@ -122,7 +140,9 @@ static hci_status pair_add(const hci_regression *e, const hci_attribution *a, co
     }
     if (status) return status;
     const hci_point_scores scores = {c->point, c->points, p->chi_square, p->turns};
-    return hci_tell_apart(e, &c->playable, &x, &scores, note);
+    status = hci_tell_apart(e, &c->playable, &x, &scores, note);
+    if (!status) leave_currentless_out(c, p);
+    return status;
 }
 
 static hci_status pairs_add(const hci_regression *e, const hci_attribution *a, comparison *c, hci_note *note)

@@ -33,6 +33,7 @@ enum {
 #define APART      0.4 /* change over a turn, as a share of the amplitude: below it passes for one of the turn */
 #define OF_CURRENT 0.3  /* of a swing, that the current makes or may have made */
 #define OF_SPEED   5.0  /* times the error, of a swing of the speed */
+#define REFUSED    2.0  /* of what the length of the run tells apart, about a frequency */
 #define ALIAS      0.03 /* of an electrical order, that is the order */
 #define FOLDED     64.0 /* samples in an electrical period: with more no order of note is above half of them */
 #define ALIKE      1.5  /* times as large or as small as in other runs */
@@ -46,6 +47,8 @@ typedef struct {
     size_t count, size;
     double turn_s, span_s, mean_s; /* time of a turn, of all, of one mean */
     double most_Hz;
+    double refused_Hz[HCI_MOST_SWINGS]; /* that turned out to be none, and are not looked at again */
+    size_t refused;
 } changes;
 
 /* What is asked, and the current of each sample in the rotor frame. */
@@ -132,6 +135,13 @@ static double seen(const changes *c, double frequency_Hz)
     return 2.0 * fabs(sin(HCI_PI * frequency_Hz * c->turn_s));
 }
 
+static bool is_refused(const changes *c, double frequency_Hz)
+{
+    for (size_t k = 0; k < c->refused; ++k)
+        if (fabs(frequency_Hz - c->refused_Hz[k]) < REFUSED / c->span_s) return true;
+    return false;
+}
+
 /* Power at each frequency: im, of the changes; re, of the swing, −1 where that is hardly seen. */
 static void spectrum_fill(changes *c)
 {
@@ -145,8 +155,8 @@ static void spectrum_fill(changes *c)
     hci_fft(c->re, c->im, c->size, -1);
     for (size_t k = 0; k < c->size / 2; ++k) {
         const double frequency_Hz = (double)k / ((double)c->size * c->mean_s), part = seen(c, frequency_Hz);
-        const bool told =
-            frequency_Hz * (c->span_s + c->turn_s) > SLOWEST && frequency_Hz < c->most_Hz && part > APART;
+        const bool told = frequency_Hz * (c->span_s + c->turn_s) > SLOWEST && frequency_Hz < c->most_Hz &&
+                          part > APART && !is_refused(c, frequency_Hz);
         c->im[k] = c->re[k] * c->re[k] + c->im[k] * c->im[k];
         c->re[k] = told ? c->im[k] / (part * part) : -1.0;
     }
@@ -381,7 +391,8 @@ static bool is_in_torque(const question *x, const line *a)
     return hypot(a->cosine - b.cosine, a->sine - b.sine) < OFF * hypot(a->cosine, a->sine);
 }
 
-/* Lines that stand out of the noise. Returns how many. */
+/* Lines that stand out of the noise. Returns how many. The foot of a multiple of the turn, of which rounded
+ * angles leave a little in the changes, leads to that, which is no swing. */
 static size_t lines_take(const question *x, changes *c, line *lines)
 {
     size_t count = 0;
@@ -390,7 +401,12 @@ static size_t lines_take(const question *x, changes *c, line *lines)
         const double frequency_Hz = line_find(c);
         if (!(frequency_Hz > 0.0)) break;
         const line a = line_refine(c, frequency_Hz);
-        if (!(a.square > 0.0) || !is_in_torque(x, &a)) break;
+        if (!(a.square > 0.0)) break;
+        if (!(seen(c, a.frequency_Hz) > APART) && c->refused < HCI_MOST_SWINGS) {
+            c->refused_Hz[c->refused++] = frequency_Hz;
+            continue;
+        }
+        if (!(seen(c, a.frequency_Hz) > APART) || !is_in_torque(x, &a)) break;
         if (is_caused(x, &a) || is_folded(x, c, a.frequency_Hz)) break;
         line_leave(c, &a, 1.0);
         lines[count++] = a;
@@ -467,7 +483,7 @@ static size_t find(const question *x, const hci_swing_groups *known, hci_swing *
 {
     const hci_run *r = x->run;
     size_t first = 1, group = 1, count = 0;
-    changes c;
+    changes c = {.refused = 0};
     const double direction = r->theta_m_rad[r->count - 1] > r->theta_m_rad[0] ? 1.0 : -1.0;
     place p = {0, 0.0};
     while (first < r->count && !place_find(r, first, direction, &p))

@@ -92,6 +92,30 @@ static void test_a_load_that_swings(void)
         TEST_ASSERT_DOUBLE_WITHIN(0.05 * NOISE_NM, NOISE_NM, left_Nm(r));
 }
 
+/* Cogging torque of which a turn has a whole number of samples, without noise and with angles of six digits:
+ * what they leave of it in the changes over a turn is no swing, and a swing beside it is one. */
+static void test_rounded_angles_make_no_swing(void)
+{
+    static const double SWING_NM[2] = {0.0, 0.02};
+    for (size_t r = 0; r < 2; ++r) {
+        record(r, &(point){10.0, 47.3, 0.0, 0.0, 0.0});
+        for (size_t k = 0; k < N; ++k) {
+            const double theta = 0.3 + run[r].theta_m_rad[k];
+            const double turned = theta + 0.002 * sin(theta);
+            run[r].theta_m_rad[k] = 1e-4 * round(1e4 * turned);
+            run[r].torque_Nm[k] = 2.0 + 0.04 * sin(48.0 * turned + 0.5) +
+                                  SWING_NM[r] * sin(2.0 * REF_PI * 47.3 * run[r].time_s[k] + 1.0);
+            rec_phases(0.0, IQ_A, P * turned, run[r].i_A + 3 * k);
+        }
+        statistics[r] = hci_run_statistics_of(&run[r], P);
+        find(r, NULL);
+        TEST_ASSERT_EQUAL_UINT64(r, statistics[r].swings);
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(0.05, 47.3, statistics[1].swing[0].frequency_Hz);
+    TEST_ASSERT_DOUBLE_WITHIN(0.002, SWING_NM[1],
+                              hypot(statistics[1].swing[0].cosine_Nm, statistics[1].swing[0].sine_Nm));
+}
+
 /* 50 Hz are five times a turn of the first, where its changes over a turn do not show it. */
 static void test_the_mains_at_an_order(void)
 {
@@ -165,6 +189,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_load_that_swings);
+    RUN_TEST(test_rounded_angles_make_no_swing);
     RUN_TEST(test_the_mains_at_an_order);
     RUN_TEST(test_a_multiple_of_the_mains);
     RUN_TEST(test_a_belt);
