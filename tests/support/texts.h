@@ -62,4 +62,34 @@ static inline const char *text_tag(const char *at, char open[][TEXT_TAG], int mo
     return at + 1;
 }
 
+/* XML from its first element on: what is opened is closed, in one root. */
+static inline void text_is_xml(const char *text)
+{
+    char open[16][TEXT_TAG];
+    int depth = 0, tags = 0;
+    for (const char *at = text; (at = strchr(at, '<')) != NULL;) {
+        TEST_ASSERT_TRUE_MESSAGE(depth > 0 || tags == 0, "a second root");
+        at = text_tag(at, open, 16, &depth);
+        ++tags;
+    }
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, depth, "something is not closed");
+    TEST_ASSERT_TRUE(tags > 0);
+}
+
+/* Each row of each table of a page has as many cells as that of its headings. */
+static inline void text_tables_are_whole(const char *page)
+{
+    int columns = 0, cells = 0;
+    bool is_head = false;
+    for (const char *at = page; (at = strchr(at, '<')) != NULL; ++at) {
+        if (strncmp(at, "<thead>", 7) == 0) is_head = true;
+        if (strncmp(at, "<tbody>", 7) == 0) is_head = false;
+        if (strncmp(at, "<tr>", 4) == 0) cells = 0;
+        if (strncmp(at, "<td", 3) == 0 || strncmp(at, "<th ", 4) == 0) ++cells;
+        if (strncmp(at, "</tr>", 5) != 0) continue;
+        if (is_head) columns = cells;
+        TEST_ASSERT_EQUAL_INT_MESSAGE(columns, cells, "a row has not a cell for each heading");
+    }
+}
+
 #endif

@@ -105,8 +105,8 @@ static void put_with_subscripts(hci_output *out, const char *text)
             put_character(out, *text);
             continue;
         }
-        hci_output_text(out, "<tspan class=\"sub\" dy=\"3\">%c</tspan><tspan dy=\"-3\"%s>", text[1],
-                        text[2] == ' ' ? " dx=\"4\"" : "");
+        hci_output_text(out, "%s<tspan class=\"sub\" dy=\"3\">%c</tspan><tspan dy=\"-3\"%s>",
+                        lowered ? "</tspan>" : "", text[1], text[2] == ' ' ? " dx=\"4\"" : "");
         text += text[2] == ' ' ? 2 : 1;
         lowered = true;
     }

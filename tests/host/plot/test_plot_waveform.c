@@ -33,6 +33,7 @@ static void draw(const hci_waveform *w)
     hci_plot_waveform(out, w);
     picture = written_end(out, "p.svg");
     TEST_ASSERT_TRUE(strlen(picture) < MOST_BYTES);
+    text_is_xml(picture);
 }
 
 /* A minus sign of typography is a minus. */

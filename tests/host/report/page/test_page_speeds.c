@@ -49,14 +49,19 @@ static char *page(void)
     const hci_report_sources sources = {.machine = "motors/hub", .drive = "drive.csv"};
     hci_output *out = written_begin("report.html");
     hci_page_speeds(out, &speeds, &sources);
-    return written_end(out, "report.html");
+    char *text = written_end(out, "report.html");
+    text_is_xml(strstr(text, "<html"));
+    text_tables_are_whole(text);
+    return text;
 }
 
 static char *picture(void)
 {
     hci_output *out = written_begin("speeds.svg");
     hci_plot_speeds(out, &speeds);
-    return written_end(out, "speeds.svg");
+    char *text = written_end(out, "speeds.svg");
+    text_is_xml(text);
+    return text;
 }
 
 /* The n-th number of the table of a caption. */

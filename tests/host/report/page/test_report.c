@@ -200,6 +200,7 @@ static void check_alone(void)
 static void check_page(size_t pictures)
 {
     check_tags();
+    text_tables_are_whole(page);
     check_pictures(pictures);
     check_alone();
     text_has("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>", page);
