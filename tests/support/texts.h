@@ -92,4 +92,35 @@ static inline void text_tables_are_whole(const char *page)
     }
 }
 
+/* Row n, from 0, of the body of the table behind a text, as a reader sees it: cells with a blank behind each.
+ */
+static inline const char *text_row(const char *page, const char *table, int n)
+{
+    static char text[800];
+    const char *at = strstr(page, table);
+    size_t used = 0;
+    TEST_ASSERT_NOT_NULL_MESSAGE(at, table);
+    at = strstr(at, "<tbody>");
+    for (int k = 0; k <= n; ++k) {
+        at = strstr(at + 1, "<tr>");
+        TEST_ASSERT_NOT_NULL_MESSAGE(at, "no such row");
+    }
+    for (; strncmp(at, "</tr>", 5) != 0 && used + 2 < sizeof text; ++at) {
+        if (strncmp(at, "</td>", 5) == 0) text[used++] = ' ';
+        if (*at == '<') at = strchr(at, '>');
+        if (*at != '>') text[used++] = *at;
+    }
+    text[used] = '\0';
+    return text;
+}
+
+static inline int text_rows(const char *page, const char *table)
+{
+    const char *at = strstr(strstr(page, table), "<tbody>"), *end = strstr(at, "</tbody>");
+    int count = 0;
+    for (; (at = strstr(at + 1, "<tr>")) != NULL && at < end; ++count)
+        ;
+    return count;
+}
+
 #endif

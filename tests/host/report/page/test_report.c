@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "hci/host/base/number.h"
+#include "hci/host/diagnose/again.h"
 #include "host/base/memory.h"
 #include "host/draw/html.h"
 #include "host/plot/plot.h"
@@ -254,6 +255,56 @@ static void test_diagnosis(void)
     check_number(term[TERMS - 1].std_error);
     text_lacks("Index slips", page);
     text_lacks("What to measure next", page);
+}
+
+/* A diagnosis that goes on: the new recordings against what was promised of them, and what became of the
+ * effects. */
+static void test_new_recordings(void)
+{
+    static const char RUNS_TABLE[] =
+        "<caption>New recordings: rms of measured less modelled torque</caption>",
+                      EFFECTS[] = "<caption>Effects of the last machine and of this one</caption>";
+    hci_again_run fresh[2] = {{.file = "runs/8.csv",
+                               .declared_Nm = 0.5,
+                               .last_Nm = 0.03,
+                               .now_Nm = 0.01,
+                               .noise_Nm = 0.005,
+                               .bound_Nm = 0.02,
+                               .kept = false},
+                              {.file = "runs/9.csv",
+                               .declared_Nm = 0.4,
+                               .last_Nm = 0.015,
+                               .now_Nm = 0.012,
+                               .noise_Nm = 0.006,
+                               .bound_Nm = 0.025,
+                               .kept = true}};
+    hci_again again = {.run = fresh,
+                       .runs = 2,
+                       .bounded = 2,
+                       .kept = 1,
+                       .effect = {{.effect = "cogging", .change = HCI_AGAIN_CHANGED, .deviations = 3.5},
+                                  {.effect = "friction", .change = HCI_AGAIN_CAME, .deviations = NAN}},
+                       .effects = 2,
+                       .recordings_before = 2};
+    snprintf(again.effect[0].words, sizeof again.effect[0].words, "0.1, then 0.2");
+    diagnosis.again = &again;
+    write_diagnosis(NULL);
+    check_page(2 * 4);
+    TEST_ASSERT_EQUAL_STRING("runs/8.csv 0.5 0.03 0.02 no 0.01 0.005 ", text_row(page, RUNS_TABLE, 0));
+    TEST_ASSERT_EQUAL_STRING("runs/9.csv 0.4 0.015 0.025 yes 0.012 0.006 ", text_row(page, RUNS_TABLE, 1));
+    TEST_ASSERT_EQUAL_INT(2, text_rows(page, RUNS_TABLE));
+    TEST_ASSERT_EQUAL_STRING("cogging changed 3.5 0.1, then 0.2 ", text_row(page, EFFECTS, 0));
+    TEST_ASSERT_EQUAL_STRING("friction came –  ", text_row(page, EFFECTS, 1));
+    again.bounded = 0;
+    fresh[0].bound_Nm = fresh[1].bound_Nm = NAN;
+    again.effects = 0;
+    write_diagnosis(NULL);
+    TEST_ASSERT_EQUAL_STRING("runs/8.csv 0.5 0.03 – – 0.01 0.005 ", text_row(page, RUNS_TABLE, 0));
+    text_lacks(EFFECTS, page);
+    again.runs = 0;
+    write_diagnosis(NULL);
+    text_has("What the new recordings say of the last diagnosis", page);
+    text_lacks(RUNS_TABLE, page);
 }
 
 /* What is left above the noise is told so; that nothing known explains it only of a search that was finished.
@@ -883,6 +934,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_diagnosis);
+    RUN_TEST(test_new_recordings);
     RUN_TEST(test_what_is_left_above_the_noise);
     RUN_TEST(test_largest_of_each_order);
     RUN_TEST(test_chance_is_no_order);

@@ -36,34 +36,6 @@ static void write_page(const hci_grid *s)
     text_has("· motor &#60;7&#62;", page);
 }
 
-/* A row of a table, as a reader sees it: cells with blanks between. */
-static const char *row_of(const char *table, int n)
-{
-    static char text[400];
-    const char *at = strstr(page, table);
-    size_t used = 0;
-    TEST_ASSERT_NOT_NULL_MESSAGE(at, table);
-    at = strstr(at, "<tbody>");
-    for (int k = 0; k <= n; ++k)
-        at = strstr(at + 1, "<tr>");
-    for (; strncmp(at, "</tr>", 5) != 0 && used + 2 < sizeof text; ++at) {
-        if (strncmp(at, "</td>", 5) == 0) text[used++] = ' ';
-        if (*at == '<') at = strchr(at, '>');
-        if (*at != '>') text[used++] = *at;
-    }
-    text[used] = '\0';
-    return text;
-}
-
-static int rows_of(const char *table)
-{
-    const char *at = strstr(strstr(page, table), "<tbody>"), *end = strstr(at, "</tbody>");
-    int count = 0;
-    for (; (at = strstr(at + 1, "<tr>")) != NULL && at < end; ++count)
-        ;
-    return count;
-}
-
 /* ---- pages ---- */
 
 static void test_page_of_a_trade_off(void)
@@ -84,12 +56,12 @@ static void test_page_of_a_trade_off(void)
              page);
     text_has("The least without ripple: a limit of the phase current of 20 A, with no ripple and 1 times",
              page);
-    TEST_ASSERT_EQUAL_STRING("10 – 1.2 9.5 torque ", row_of(TABLE, 0));
-    TEST_ASSERT_EQUAL_STRING("20 0 1 19.5 reached ", row_of(TABLE, 3));
-    TEST_ASSERT_EQUAL_INT(4, rows_of(TABLE));
-    TEST_ASSERT_EQUAL_STRING("1.05 6 1.05 32 ripple ", row_of(COPPER, 0));
-    TEST_ASSERT_EQUAL_STRING("1.5 0.005 1.5 40 ripple ", row_of(COPPER, 2));
-    TEST_ASSERT_EQUAL_INT(3, rows_of(COPPER));
+    TEST_ASSERT_EQUAL_STRING("10 – 1.2 9.5 torque ", text_row(page, TABLE, 0));
+    TEST_ASSERT_EQUAL_STRING("20 0 1 19.5 reached ", text_row(page, TABLE, 3));
+    TEST_ASSERT_EQUAL_INT(4, text_rows(page, TABLE));
+    TEST_ASSERT_EQUAL_STRING("1.05 6 1.05 32 ripple ", text_row(page, COPPER, 0));
+    TEST_ASSERT_EQUAL_STRING("1.5 0.005 1.5 40 ripple ", text_row(page, COPPER, 2));
+    TEST_ASSERT_EQUAL_INT(3, text_rows(page, COPPER));
     TEST_ASSERT_TRUE(strstr(page, TABLE) < strstr(page, COPPER)); /* as the pictures that they belong to */
     TEST_ASSERT_EQUAL_INT(2 * 4, text_count("<svg ", page));      /* for a screen and for a telephone */
     text_has("Numbers: trade_off.csv", page);
@@ -114,9 +86,9 @@ static void test_page_of_an_envelope(void)
         "At 1000 rpm: 3 N·m with at most 2.5 % of ripple, 4 N·m with 8 %, and 2.5 N·m with 5 % by the plain "
         "sine.",
         page);
-    TEST_ASSERT_EQUAL_INT(6, rows_of(TABLE));
-    TEST_ASSERT_EQUAL_STRING("2000 24 2 1 3 6 1.5 3 voltage reached ", row_of(TABLE, 1));
-    TEST_ASSERT_EQUAL_STRING("3000 48 – – 3 6 0.75 1.5  ripple ", row_of(TABLE, 5));
+    TEST_ASSERT_EQUAL_INT(6, text_rows(page, TABLE));
+    TEST_ASSERT_EQUAL_STRING("2000 24 2 1 3 6 1.5 3 voltage reached ", text_row(page, TABLE, 1));
+    TEST_ASSERT_EQUAL_STRING("3000 48 – – 3 6 0.75 1.5  ripple ", text_row(page, TABLE, 5));
     TEST_ASSERT_EQUAL_INT(2 * 2, text_count("<svg ", page));
     text_has("Numbers: envelope.csv", page);
     grid_row[0].best = grid_no_figures();
@@ -135,9 +107,9 @@ static void test_page_of_a_map(void)
              "wanted, 1 "
              "without a result.",
              page);
-    TEST_ASSERT_EQUAL_INT(6, rows_of(TABLE));
-    TEST_ASSERT_EQUAL_STRING("400 1 6 90 21 33 voltage ripple ", row_of(TABLE, 2));
-    TEST_ASSERT_EQUAL_STRING("400 3 – – – –  failed ", row_of(TABLE, 5));
+    TEST_ASSERT_EQUAL_INT(6, text_rows(page, TABLE));
+    TEST_ASSERT_EQUAL_STRING("400 1 6 90 21 33 voltage ripple ", text_row(page, TABLE, 2));
+    TEST_ASSERT_EQUAL_STRING("400 3 – – – –  failed ", text_row(page, TABLE, 5));
     text_has("badge bad\">Points without a result<", page);
     text_has("Point 6: no step was found", page);
     text_lacks("Point 5:", page);
