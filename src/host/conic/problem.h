@@ -38,7 +38,8 @@ typedef struct {
     double *x;    /* unknowns */
     double *z;    /* multipliers of the rows of G; of a two-sided row that of h less that of low. The
                    * objective falls by z_k for each 1 that h_k grows, as long as z stays */
-    double error; /* largest of residuals and gap, relative */
+    double error; /* largest of residuals and gap, relative; HUGE_VAL where it was proved that there is no
+                     answer */
     size_t steps;
 } hci_cone_answer;
 

@@ -116,6 +116,55 @@ static void test_orders_of_the_cogging_torque(void)
     TEST_ASSERT_TRUE(isnan(value_of("cogging_first", "")));
 }
 
+/* Three lines of a free motor of 12 slots, at orders 10, 12 and 60: the likelihood of pole pairs is a product
+ * over the lines of what lcm(12, 2p), 12, 2p and p put there: 6/(πh)² of their share at the h-th multiple, up
+ * to the twelfth, and a tenth of the orders anywhere. 8 less where no three equal phases can be wound. */
+static double likelihood(int pairs)
+{
+    static const int LINE[] = {10, 12, 60}, SLOTS = 12;
+    static const double SHARE[] = {0.4, 0.2, 0.2, 0.1};
+    int common = SLOTS, a = SLOTS, b = pairs;
+    while (common % (2 * pairs) != 0)
+        common += SLOTS;
+    while (b != 0) {
+        const int rest = a % b;
+        a = b;
+        b = rest;
+    }
+    double sum = SLOTS % (3 * a) == 0 ? 0.0 : -8.0;
+    for (int k = 0; k < 3; ++k) {
+        const int base[] = {common, SLOTS, 2 * pairs, pairs};
+        double x = 0.1 / CHECK_MOST_ORDER;
+        for (int j = 0; j < 4; ++j) {
+            const int h = LINE[k] / base[j];
+            if (LINE[k] % base[j] == 0 && h <= 12) x += SHARE[j] * 6.0 / (REF_PI * REF_PI * h * h);
+        }
+        sum += log(x);
+    }
+    return sum;
+}
+
+static void test_pole_pairs_of_a_ripple(void)
+{
+    static const int LINE[] = {10, 12, 60};
+    int best = 1;
+    record_idle();
+    data.value[CHECK_slots] = 12.0;
+    data.run[0].turns_steadily = true;
+    data.run[0].lines = 3;
+    for (int k = 0; k < 3; ++k)
+        data.run[0].line[k] = LINE[k];
+    for (int pairs = 2; pairs <= CHECK_MOST_PAIRS; ++pairs)
+        if (likelihood(pairs) > likelihood(best)) best = pairs;
+    TEST_ASSERT_EQUAL_INT(5, best); /* 12 slots, 10 poles */
+    data.pole_pairs_of_ripple = best;
+    for (int pairs = 1; pairs <= 12; ++pairs) {
+        data.value[CHECK_pole_pairs] = pairs;
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, sqrt(2.0 * (likelihood(best) - likelihood(pairs))),
+                                  value_of("ripple_orders", ""));
+    }
+}
+
 static void test_slopes_of_the_inductance(void)
 {
     EXPECT({"inductance_difference", "", 1.0},
@@ -397,6 +446,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_orders_and_phases_of_the_tables);
     RUN_TEST(test_orders_of_the_cogging_torque);
+    RUN_TEST(test_pole_pairs_of_a_ripple);
     RUN_TEST(test_slopes_of_the_inductance);
     RUN_TEST(test_rated_torque);
     RUN_TEST(test_sizes);

@@ -130,6 +130,7 @@ static void test_an_objective_without_end(void)
     const hci_cone_problem p = {.unknowns = 2, .c = c, .rows = 2, .linear = 2, .g = g, .h = h};
     solve(&p);
     TEST_ASSERT_EQUAL(HCI_CONE_UNBOUNDED, answer.end);
+    TEST_ASSERT_TRUE(answer.error > 1e300); /* there is no point that answers */
 }
 
 static void test_memory_runs_out(void)

@@ -93,6 +93,14 @@ static void test_a_small_rise_denies_a_small_torque(void)
     TEST_ASSERT_NULL(said_with(0.02, -0.03, 110.0, 0.0495, 0.05));
 }
 
+/* By more than 2 % it is denied whatever falls without load. */
+static void test_a_larger_rise_denies(void)
+{
+    TEST_ASSERT_NULL(said_with(0.02, -0.03, 110.0, 0.05, 0.0509));
+    TEST_ASSERT_NOT_NULL(said_with(0.02, -0.03, 110.0, 0.05, 0.0511));
+    TEST_ASSERT_NOT_NULL(said_with(0.02, -0.03, 110.0, 0.052, 0.0511));
+}
+
 /* At one speed a sensor that lags shows the declared torque smaller and later; a larger one is none. */
 static void test_one_speed_does_not_tell_a_lag(void)
 {
@@ -117,6 +125,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_denied_under_load);
     RUN_TEST(test_a_small_rise_denies_a_small_torque);
+    RUN_TEST(test_a_larger_rise_denies);
     RUN_TEST(test_one_speed_does_not_tell_a_lag);
     RUN_TEST(test_two_speeds_tell_it);
     return UNITY_END();

@@ -72,6 +72,45 @@ static void test_angles_that_look_like_degrees_are_told(void)
     }
 }
 
+/* What a column that nobody read may be is told with the words that make it so: of several torques and speeds
+ * the first, of currents all. */
+static void test_what_may_be_a_torque_a_current_a_speed(void)
+{
+    char torque[HCI_RUN_NAME] = "", current[HCI_RUN_NAME] = "";
+    TEST_ASSERT_EQUAL(HCI_OK, find("theta_m_rad,lamp,Messwelle roh,torque raw 2,i along d raw,Messung roh_A,"
+                                   "Drehzahl roh,speed raw\n0,1,2,3,4,5,6,7\n"));
+    hci_run_columns_torque_like(&columns, torque);
+    TEST_ASSERT_EQUAL_STRING("torque_Nm=Messwelle roh", torque);
+    TEST_ASSERT_EQUAL_STRING(
+        "`Messwelle roh` may be the torque: if it is, add --column 'torque_Nm=Messwelle roh'", remark.text);
+    memset(&remark, 0, sizeof remark);
+    hci_run_columns_current_like(&columns, current);
+    TEST_ASSERT_EQUAL_STRING("iq=Messung roh_A", current);
+    TEST_ASSERT_NOT_NULL_MESSAGE(
+        strstr(remark.text, "`Messung roh_A` is a current that was not read: if it is i_q, add --column "
+                            "'iq=Messung roh_A'"),
+        remark.text);
+    memset(&remark, 0, sizeof remark);
+    hci_run_columns_speed_like(&columns);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(remark.text,
+                                        "`Drehzahl roh` may be the speed: if it is, add --column "
+                                        "'speed_rpm=Drehzahl roh' (speed_rad_per_s in rad/s, "
+                                        "speed_rev_per_s in turn/s)"),
+                                 remark.text);
+    TEST_ASSERT_NULL_MESSAGE(strstr(remark.text, "speed raw"), remark.text);
+}
+
+/* A torque in per cent of something cannot be read. */
+static void test_a_torque_in_per_cent_is_told(void)
+{
+    char torque[HCI_RUN_NAME] = "";
+    TEST_ASSERT_EQUAL(HCI_OK, find("theta_m_rad,torque raw %\n0,1\n"));
+    hci_run_columns_torque_like(&columns, torque);
+    TEST_ASSERT_EQUAL_STRING("", torque);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(remark.text, "may be the torque in per cent of another one"),
+                                 remark.text);
+}
+
 /* A column that could be the angle is not passed over for a map of means. */
 static void test_a_column_that_may_be_the_angle_is_asked_for(void)
 {
@@ -352,6 +391,8 @@ int main(void)
     RUN_TEST(test_more_languages_are_read);
     RUN_TEST(test_a_bare_angle_is_what_turns_as_fast_as_the_speed);
     RUN_TEST(test_angles_that_look_like_degrees_are_told);
+    RUN_TEST(test_what_may_be_a_torque_a_current_a_speed);
+    RUN_TEST(test_a_torque_in_per_cent_is_told);
     RUN_TEST(test_a_column_that_may_be_the_angle_is_asked_for);
     RUN_TEST(test_values_come_in_si_units);
     RUN_TEST(test_the_header_says_where_a_column_stands);
