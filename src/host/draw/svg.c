@@ -135,16 +135,16 @@ void hci_svg_tell_more(hci_output *out, const char *text)
     hci_svg_text(out, text);
 }
 
-/* A prefix would be odd before °, %, ×, rpm and ms. */
+/* A prefix would be odd before °, %, ×, rpm and ms, and where there is no unit. */
 void hci_svg_tell_value(hci_output *out, const char *words, double value, const char *unit)
 {
     char text[HCI_SVG_NUMBER_SIZE];
-    const bool is_plain = (unsigned char)*unit >= 0x80 || *unit == '%' || *unit == 'r' || *unit == 'm';
+    const bool is_plain = (unsigned char)*unit >= 0x80 || strchr("%rm", *unit);
     if (!isfinite(value)) return;
     if (is_plain) {
         hci_svg_short_text(text, value);
-        snprintf(text + strlen(text), sizeof text - strlen(text), "%s%s", strcmp(unit, "°") == 0 ? "" : " ",
-                 unit);
+        snprintf(text + strlen(text), sizeof text - strlen(text), "%s%s",
+                 !*unit || strcmp(unit, "°") == 0 ? "" : " ", unit);
     } else {
         hci_svg_quantity_text(text, value, unit);
     }

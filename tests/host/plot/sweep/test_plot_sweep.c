@@ -7,14 +7,13 @@
 
 #include "host/plot/sweep/plot_sweep.h"
 #include "support/grid_by_hand.h"
+#include "support/pictures.h"
 #include "support/texts.h"
 #include "support/written.h"
 #include "unity.h"
 
 /* Coordinates are rounded to 0.01 pixel, those of the two ticks that make a scale too. */
 #define PIXELS 0.05
-
-static const char *picture;
 
 void setUp(void)
 {
@@ -30,9 +29,9 @@ static void begin_and_end(void (*draw)(hci_output *, const hci_grid *), const hc
 {
     hci_output *out = written_begin("p.svg");
     draw(out, s);
-    picture = written_end(out, "p.svg");
-    text_is_xml(picture);
-    text_lacks("nan", picture);
+    picture_text = written_end(out, "p.svg");
+    text_is_xml(picture_text);
+    text_lacks("nan", picture_text);
 }
 
 static void draw_panel(void (*draw)(hci_output *, const hci_svg_box *, const void *), const hci_svg_box *box,
@@ -42,28 +41,8 @@ static void draw_panel(void (*draw)(hci_output *, const hci_svg_box *, const voi
     hci_svg_begin(out, &(hci_svg_picture){"p", "t", "d", 0, 0, 1000, 1000});
     draw(out, box, s);
     hci_svg_end(out);
-    picture = written_end(out, "p.svg");
-    text_is_xml(picture);
-}
-
-/* The n-th place behind a text. */
-static const char *behind(const char *what, int n)
-{
-    const char *at = picture;
-    for (int k = 0; k <= n; ++k) {
-        at = strstr(k ? at + 1 : at, what);
-        TEST_ASSERT_NOT_NULL_MESSAGE(at, what);
-    }
-    return at + strlen(what);
-}
-
-static double attribute(const char *at, const char *name)
-{
-    char key[24];
-    snprintf(key, sizeof key, "%s=\"", name);
-    const char *found = strstr(at, key);
-    TEST_ASSERT_TRUE(found && found < strchr(at, '>'));
-    return strtod(found + strlen(key), NULL);
+    picture_text = written_end(out, "p.svg");
+    text_is_xml(picture_text);
 }
 
 /* ---- maps ---- */
@@ -72,10 +51,10 @@ static double attribute(const char *at, const char *name)
 static const char *cell(int panel, int k, const char **told, double at[4])
 {
     static char style[16];
-    const char *tell = behind("<g><title>", 6 * panel + k), *rect = strstr(tell, "<rect class=\"");
+    const char *tell = picture_behind("<g><title>", 6 * panel + k), *rect = strstr(tell, "<rect class=\"");
     static const char *const NAME[] = {" x", " y", "width", "height"};
     for (int j = 0; j < 4; ++j)
-        at[j] = attribute(rect, NAME[j]);
+        at[j] = picture_attribute(rect, NAME[j]);
     snprintf(style, sizeof style, "%.*s", (int)strcspn(rect + 13, "\""), rect + 13);
     *told = tell;
     return style;
@@ -98,9 +77,9 @@ static void test_cells_of_a_map_meet_halfway(void)
             TEST_ASSERT_DOUBLE_WITHIN(PIXELS, top + 236.0 * (1.0 - Y[k / 3 + 1] / 4.0), at[1]);
             TEST_ASSERT_DOUBLE_WITHIN(PIXELS, 118.0, at[3]);
         }
-    text_has("<svg xmlns=\"http://www.w3.org/2000/svg\"", picture);
-    text_has("Grey: the mean torque is not reached within the limits;", picture);
-    text_lacks("Drawn: the points with a dc link", picture);
+    text_has("<svg xmlns=\"http://www.w3.org/2000/svg\"", picture_text);
+    text_has("Grey: the mean torque is not reached within the limits;", picture_text);
+    text_lacks("Drawn: the points with a dc link", picture_text);
 }
 
 /* The number beside colour n of a panel's legend; NAN where there was no room for it. */
@@ -109,14 +88,15 @@ static double level_of(int panel, int n)
     char key[40];
     snprintf(key, sizeof key, "<rect class=\"heat%d\"", n);
     const double left = 70.0 + 434.0 * (panel % 3), top = 112.0 + 374.0 * (panel / 3) + 236.0 + 46.0;
-    for (const char *at = strstr(picture, key); at; at = strstr(at + 1, key)) {
-        if (fabs(attribute(at, " x") - left - 35.0 * n) > 0.01 || fabs(attribute(at, " y") - top) > 0.01)
+    for (const char *at = strstr(picture_text, key); at; at = strstr(at + 1, key)) {
+        if (fabs(picture_attribute(at, " x") - left - 35.0 * n) > 0.01 ||
+            fabs(picture_attribute(at, " y") - top) > 0.01)
             continue;
-        TEST_ASSERT_DOUBLE_WITHIN(0.011, 35.0, attribute(at, "width"));
-        TEST_ASSERT_DOUBLE_WITHIN(0.011, 10.0, attribute(at, "height"));
+        TEST_ASSERT_DOUBLE_WITHIN(0.011, 35.0, picture_attribute(at, "width"));
+        TEST_ASSERT_DOUBLE_WITHIN(0.011, 10.0, picture_attribute(at, "height"));
         const char *next = strchr(at, '>') + 2;
         if (strncmp(next, "<text class=\"small quiet\"", 25) != 0) return NAN;
-        TEST_ASSERT_DOUBLE_WITHIN(0.011, attribute(at, " x"), attribute(next, " x"));
+        TEST_ASSERT_DOUBLE_WITHIN(0.011, picture_attribute(at, " x"), picture_attribute(next, " x"));
         return strtod(strchr(next, '>') + 1, NULL);
     }
     TEST_FAIL_MESSAGE("a colour is not in the legend");
@@ -173,13 +153,13 @@ static void test_limits_and_words_of_a_map(void)
     }
     cell(4, 3, &told, at);
     TEST_ASSERT_EQUAL_STRING_LEN("100 rpm, 3 N·m: current+copper; ripple<", told, 40);
-    text_has(">none</text>", picture);
-    text_has(">several</text>", picture);
-    text_lacks(">copper</text>", picture); /* by itself it binds nowhere */
-    text_has("Copper loss in W", picture);
+    text_has(">none</text>", picture_text);
+    text_has(">several</text>", picture_text);
+    text_lacks(">copper</text>", picture_text); /* by itself it binds nowhere */
+    text_has("Copper loss in W", picture_text);
     grid_machine.resistance_ohm = NAN;
     begin_and_end(hci_plot_map, &s);
-    text_has("Mean of i", picture);
+    text_has("Mean of i", picture_text);
     cell(1, 1, &told, at);
     text_has("200 rpm, 1 N·m: 60 A²; reached<", told);
 }
@@ -191,53 +171,21 @@ static void test_one_link_of_a_map(void)
     for (int k = 0; k < 6; ++k)
         grid_point[k].link_V = k < 3 ? 24.0 : 48.0;
     begin_and_end(hci_plot_map, &s);
-    TEST_ASSERT_EQUAL_INT(5 * 3, text_count("<g><title>", picture));
-    text_has("Drawn: the points with a dc link of 24 V.", picture);
+    TEST_ASSERT_EQUAL_INT(5 * 3, text_count("<g><title>", picture_text));
+    text_has("Drawn: the points with a dc link of 24 V.", picture_text);
 }
 
 /* The n-th strip that tells under the pointer: so wide about a place, and as high as its box. */
 static void check_strip(int n, double x, double width, const hci_svg_box *box)
 {
-    const char *at = behind("<rect class=\"hit\"", n);
-    TEST_ASSERT_DOUBLE_WITHIN(PIXELS, x - 0.5 * width, attribute(at, " x"));
-    TEST_ASSERT_DOUBLE_WITHIN(PIXELS, width, attribute(at, "width"));
-    TEST_ASSERT_DOUBLE_WITHIN(PIXELS, box->top, attribute(at, " y"));
-    TEST_ASSERT_DOUBLE_WITHIN(PIXELS, box->bottom - box->top, attribute(at, "height"));
+    const char *at = picture_behind("<rect class=\"hit\"", n);
+    TEST_ASSERT_DOUBLE_WITHIN(PIXELS, x - 0.5 * width, picture_attribute(at, " x"));
+    TEST_ASSERT_DOUBLE_WITHIN(PIXELS, width, picture_attribute(at, "width"));
+    TEST_ASSERT_DOUBLE_WITHIN(PIXELS, box->top, picture_attribute(at, " y"));
+    TEST_ASSERT_DOUBLE_WITHIN(PIXELS, box->bottom - box->top, picture_attribute(at, "height"));
 }
 
 /* ---- ripple against the limits ---- */
-
-/* value = low + (place − at)·slope, of the numbers beside an axis: those at the left end at the box, those
- * below stand in its middle. */
-typedef struct {
-    double at, low, slope;
-} scale;
-
-static double number(const char *text)
-{
-    return strncmp(text, "−", strlen("−")) == 0 ? -strtod(text + strlen("−"), NULL) : strtod(text, NULL);
-}
-
-static scale scale_of(const char *style, const char *along, double shift)
-{
-    char key[64];
-    double place[2] = {NAN, NAN}, value[2] = {NAN, NAN};
-    snprintf(key, sizeof key, "<text class=\"%s\" ", style);
-    for (const char *at = strstr(picture, key); at; at = strstr(at + 1, key)) {
-        const char *text = strchr(at, '>') + 1;
-        if (!strchr("0123456789\xE2", *text)) continue;
-        const int k = isnan(place[0]) ? 0 : 1;
-        place[k] = attribute(at, along) - shift;
-        value[k] = number(text);
-    }
-    TEST_ASSERT_TRUE_MESSAGE(isfinite(place[1]), "fewer than two numbers at an axis");
-    return (scale){place[0], value[0], (value[1] - value[0]) / (place[1] - place[0])};
-}
-
-static double value_at(scale s, double place)
-{
-    return s.low + (place - s.at) * s.slope;
-}
 
 typedef void panel_of(hci_output *, const hci_svg_box *, const void *);
 
@@ -247,29 +195,32 @@ static void check_dots(panel_of *draw, size_t from, size_t to, double value_of(c
     const hci_svg_box box = {70.0, 106.0, 490.0, 380.0};
     const hci_grid s = grid_trade_off();
     draw_panel(draw, &box, &s);
-    const scale x = scale_of("quiet middle", " x", 0.0), y = scale_of("quiet end", " y", 4.0);
+    const picture_scale x = picture_scale_of("quiet middle", " x", 0.0),
+                        y = picture_scale_of("quiet end", " y", 4.0);
     int dot = 0;
     for (size_t k = from; k < to; ++k) {
         if (grid_row[k].verdict > HCI_GRID_RIPPLE) continue;
         const double limit = of_copper ? grid_point[k].limit_copper : grid_point[k].limit_current_A;
-        const char *at = behind("<circle class=\"dot\"", dot);
-        check_strip(dot++, attribute(at, "cx"), 8.0, &box);
-        TEST_ASSERT_DOUBLE_WITHIN(fabs(PIXELS * x.slope), limit, value_at(x, attribute(at, "cx")));
+        const char *at = picture_behind("<circle class=\"dot\"", dot);
+        check_strip(dot++, picture_attribute(at, "cx"), 8.0, &box);
+        TEST_ASSERT_DOUBLE_WITHIN(fabs(PIXELS * x.slope), limit,
+                                  picture_value_at(x, picture_attribute(at, "cx")));
         TEST_ASSERT_DOUBLE_WITHIN(fabs(PIXELS * y.slope), value_of(&grid_row[k].best),
-                                  value_at(y, attribute(at, "cy")));
+                                  picture_value_at(y, picture_attribute(at, "cy")));
     }
-    TEST_ASSERT_EQUAL_INT(dot, text_count("<circle class=\"dot\"", picture) -
-                                   text_count("<circle class=\"dot\" cx=\"0", picture));
+    TEST_ASSERT_EQUAL_INT(dot, text_count("<circle class=\"dot\"", picture_text) -
+                                   text_count("<circle class=\"dot\" cx=\"0", picture_text));
     const char *sine =
-        behind("<circle class=\"before\"", text_count("<circle class=\"before\"", picture) - 1);
+        picture_behind("<circle class=\"before\"", text_count("<circle class=\"before\"", picture_text) - 1);
     TEST_ASSERT_DOUBLE_WITHIN(fabs(PIXELS * x.slope), of_copper ? 1.0 : 14.0,
-                              value_at(x, attribute(sine, "cx")));
+                              picture_value_at(x, picture_attribute(sine, "cx")));
     TEST_ASSERT_DOUBLE_WITHIN(fabs(PIXELS * y.slope), value_of(&grid_row[0].sine),
-                              value_at(y, attribute(sine, "cy")));
-    TEST_ASSERT_EQUAL_INT(1, text_count("<rect class=\"band\"", picture));
-    const char *band = behind("<rect class=\"band\"", 0);
-    TEST_ASSERT_DOUBLE_WITHIN(fabs(PIXELS * x.slope), of_copper ? 1.05 : 12.0,
-                              value_at(x, attribute(band, " x") + attribute(band, "width")));
+                              picture_value_at(y, picture_attribute(sine, "cy")));
+    TEST_ASSERT_EQUAL_INT(1, text_count("<rect class=\"band\"", picture_text));
+    const char *band = picture_behind("<rect class=\"band\"", 0);
+    TEST_ASSERT_DOUBLE_WITHIN(
+        fabs(PIXELS * x.slope), of_copper ? 1.05 : 12.0,
+        picture_value_at(x, picture_attribute(band, " x") + picture_attribute(band, "width")));
 }
 
 static double ripple(const hci_grid_figures *f)
@@ -290,13 +241,13 @@ static double peak(const hci_grid_figures *f)
 static void test_panels_of_a_trade_off(void)
 {
     check_dots(hci_plot_ripple_by_current, 0, 4, ripple, false);
-    text_has("limit 12 A: ripple 5 %, copper 1.16 ×, peak 11.5 A</title>", picture);
-    text_lacks("limit 10 A", picture);
-    text_has("limit of the phase current, peak in A", picture);
+    text_has("limit 12 A: ripple 5 %, copper 1.16 ×, peak 11.5 A</title>", picture_text);
+    text_lacks("limit 10 A", picture_text);
+    text_has("limit of the phase current, peak in A", picture_text);
     check_dots(hci_plot_copper_by_current, 0, 4, copper, false);
     check_dots(hci_plot_ripple_by_copper, 4, 7, ripple, true);
-    text_has("limit 1.05 ×: ripple 6 %, copper 1.05 ×, peak 32 A</title>", picture);
-    text_has("limit of the copper loss, × the plain sine", picture);
+    text_has("limit 1.05 ×: ripple 6 %, copper 1.05 ×, peak 32 A</title>", picture_text);
+    text_has("limit of the copper loss, × the plain sine", picture_text);
     check_dots(hci_plot_peak_by_copper, 4, 7, peak, true);
 }
 
@@ -304,46 +255,31 @@ static void test_picture_of_a_trade_off(void)
 {
     const hci_grid s = grid_trade_off();
     begin_and_end(hci_plot_sweep, &s);
-    text_has("2 N·m at 600 rpm: ripple against peak current and copper", picture);
-    TEST_ASSERT_EQUAL_INT(4, text_count("<polyline class=\"a\"", picture));
-    text_has("no limits", picture);
+    text_has("2 N·m at 600 rpm: ripple against peak current and copper", picture_text);
+    TEST_ASSERT_EQUAL_INT(4, text_count("<polyline class=\"a\"", picture_text));
+    text_has("no limits", picture_text);
 }
 
 /* ---- the largest torque ---- */
-
-/* Corner `corner` of the n-th line of a style; NULL behind its end. */
-static bool corner_of(const char *style, int line, int corner, double at[2])
-{
-    char key[48];
-    snprintf(key, sizeof key, "<polyline class=\"%s\" points=\"", style);
-    const char *text = behind(key, line);
-    for (int k = 0; k <= corner; ++k) {
-        char *end;
-        if (*text == '"') return false;
-        at[0] = strtod(text, &end);
-        at[1] = strtod(end + 1, &end);
-        text = end + 1;
-    }
-    return true;
-}
 
 static int lines_of(const char *style)
 {
     char key[48];
     snprintf(key, sizeof key, "<polyline class=\"%s\" points=\"", style);
-    return text_count(key, picture);
+    return text_count(key, picture_text);
 }
 
 static void check_line(const char *style, int line, const double *torque_Nm, int count)
 {
-    const scale x = scale_of("quiet middle", " x", 0.0), y = scale_of("quiet end", " y", 4.0);
+    const picture_scale x = picture_scale_of("quiet middle", " x", 0.0),
+                        y = picture_scale_of("quiet end", " y", 4.0);
     double at[2];
     for (int k = 0; k < count; ++k) {
-        TEST_ASSERT_TRUE(corner_of(style, line, k, at));
-        TEST_ASSERT_DOUBLE_WITHIN(fabs(PIXELS * x.slope), 1000.0 * (k + 1), value_at(x, at[0]));
-        TEST_ASSERT_DOUBLE_WITHIN(fabs(PIXELS * y.slope), torque_Nm[k], value_at(y, at[1]));
+        TEST_ASSERT_TRUE(picture_corner_of(style, line, k, at));
+        TEST_ASSERT_DOUBLE_WITHIN(fabs(PIXELS * x.slope), 1000.0 * (k + 1), picture_value_at(x, at[0]));
+        TEST_ASSERT_DOUBLE_WITHIN(fabs(PIXELS * y.slope), torque_Nm[k], picture_value_at(y, at[1]));
     }
-    TEST_ASSERT_FALSE(corner_of(style, line, count, at));
+    TEST_ASSERT_FALSE(picture_corner_of(style, line, count, at));
 }
 
 static void test_torques_of_an_envelope(void)
@@ -357,20 +293,21 @@ static void test_torques_of_an_envelope(void)
         draw_panel(hci_plot_envelope_torque, &box, &s);
         TEST_ASSERT_EQUAL_INT(links, lines_of("a"));
         double middle[2];
-        TEST_ASSERT_TRUE(corner_of("c", 0, 1, middle));
+        TEST_ASSERT_TRUE(picture_corner_of("c", 0, 1, middle));
         check_strip(1, middle[0], 10.0, &box);
         for (size_t k = 0; k < links; ++k) {
             check_line("a", (int)k, BEST[k], 2);
             check_line("c", (int)k, MOST[k], 3);
             check_line("before", (int)k, SINE[k], 3);
         }
-        TEST_ASSERT_EQUAL_INT(2 * links, text_count("<circle class=\"dot\"", picture));
+        TEST_ASSERT_EQUAL_INT(2 * links, text_count("<circle class=\"dot\"", picture_text));
         /* a cross is two lines, one more in the legend */
-        TEST_ASSERT_EQUAL_INT(2 * links + 2, text_count("<path class=\"cross\"", picture));
-        text_has("at most 2.5 % of ripple", picture);
-        text_has("2000 rpm, little ripple: 2 N·m, any ripple: 3 N·m, plain sine: 1.5 N·m</title>", picture);
-        TEST_ASSERT_EQUAL_INT(links > 1, text_count(">24 V</text>", picture));
-        TEST_ASSERT_EQUAL_INT(links > 1, text_count(">48 V</text>", picture));
+        TEST_ASSERT_EQUAL_INT(2 * links + 2, text_count("<path class=\"cross\"", picture_text));
+        text_has("at most 2.5 % of ripple", picture_text);
+        text_has("2000 rpm, little ripple: 2 N·m, any ripple: 3 N·m, plain sine: 1.5 N·m</title>",
+                 picture_text);
+        TEST_ASSERT_EQUAL_INT(links > 1, text_count(">24 V</text>", picture_text));
+        TEST_ASSERT_EQUAL_INT(links > 1, text_count(">48 V</text>", picture_text));
     }
 }
 
@@ -381,19 +318,19 @@ static void test_ripples_of_an_envelope(void)
     const hci_grid s = grid_envelope(1);
     double a[2], b[2], most[3][2];
     draw_panel(hci_plot_envelope_ripple, &box, &s);
-    TEST_ASSERT_TRUE(corner_of("a", 0, 0, a) && corner_of("a", 0, 1, b)); /* 0.5 and 1 % */
+    TEST_ASSERT_TRUE(picture_corner_of("a", 0, 0, a) && picture_corner_of("a", 0, 1, b)); /* 0.5 and 1 % */
     for (int k = 0; k < 3; ++k)
-        TEST_ASSERT_TRUE(corner_of("c", 0, k, most[k])); /* 8, 6, 4 % */
+        TEST_ASSERT_TRUE(picture_corner_of("c", 0, k, most[k])); /* 8, 6, 4 % */
     const double decade = (b[1] - a[1]) / log10(2.0);
     TEST_ASSERT_TRUE(decade < 0.0); /* upwards */
     TEST_ASSERT_DOUBLE_WITHIN(0.2, a[1] + decade * log10(8.0 / 0.5), most[0][1]);
     TEST_ASSERT_DOUBLE_WITHIN(0.2, a[1] + decade * log10(4.0 / 0.5), most[2][1]);
     const char *allowed =
-        behind("<path class=\"limit\" d=\"M", text_count("<path class=\"limit\"", picture) - 1);
+        picture_behind("<path class=\"limit\" d=\"M", text_count("<path class=\"limit\"", picture_text) - 1);
     TEST_ASSERT_DOUBLE_WITHIN(0.2, a[1] + decade * log10(2.5 / 0.5), strtod(strchr(allowed, ' ') + 1, NULL));
-    text_has("1000 rpm, little ripple: 0.5 %, any ripple: 8 %, plain sine: 5 %</title>", picture);
+    text_has("1000 rpm, little ripple: 0.5 %, any ripple: 8 %, plain sine: 5 %</title>", picture_text);
     begin_and_end(hci_plot_sweep, &s);
-    text_has("Largest torque over the speed", picture);
+    text_has("Largest torque over the speed", picture_text);
     TEST_ASSERT_EQUAL_INT(2, lines_of("a"));
 }
 
