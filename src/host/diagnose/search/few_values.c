@@ -4,6 +4,7 @@
 
 #include "host/diagnose/search/belief.h"
 #include "host/diagnose/search/forward.h"
+#include "host/diagnose/search/stability.h"
 
 #define NEARER 0.7 /* share of what it is behind that a step may leave */
 
@@ -109,6 +110,19 @@ static hci_status turned_make(hci_search *s, const hci_fitted_model *model, bool
     return status ? status : hci_search_fit(s, turned, note);
 }
 
+/* Where the score hardly tells them apart, runs left out have to be described no worse. */
+static hci_status is_kept(hci_search *s, const hci_fitted_model *model, const hci_fitted_model *turned,
+                          bool *kept, hci_note *note)
+{
+    double misfit = 0.0, turned_misfit = 0.0;
+    *kept = true;
+    if (turned->fit.score < model->fit.score - HCI_DECISIVE) return HCI_OK;
+    hci_status status = hci_search_left_out(s, &model->candidates, &misfit, note);
+    if (!status) status = hci_search_left_out(s, &turned->candidates, &turned_misfit, note);
+    *kept = turned_misfit < misfit + HCI_AS_GOOD;
+    return status;
+}
+
 /* Puts that in place of the model where it is better, at once or after a few more effects. */
 static hci_status turned_try(hci_search *s, hci_fitted_model *model, bool cogging_stays, bool *better,
                              hci_note *note)
@@ -117,6 +131,7 @@ static hci_status turned_try(hci_search *s, hci_fitted_model *model, bool coggin
     hci_status status = turned_make(s, model, cogging_stays, &turned, note);
     *better = !status && turned.fit.score < model->fit.score - HCI_AS_GOOD;
     if (!status && !*better) status = steps_run(s, model, &turned, better, note);
+    if (!status && *better) status = is_kept(s, model, &turned, better, note);
     if (!status && *better) {
         hci_fitted_model_replace(model, &turned);
         status = hci_search_renew(s, model, note);
