@@ -5,7 +5,7 @@
 #include "host/diagnose/fit/cancelling.h"
 #include "host/diagnose/fit/model.h"
 #include "host/diagnose/search/brakes.h"
-#include "host/diagnose/search/mirror.h"
+#include "host/diagnose/search/unlike_iron.h"
 #include "host/machine/torque_constant.h"
 
 #define LEAST_CONSTANT 0.5  /* of the torque per ampere that is declared: a correction leaves no less */
@@ -178,15 +178,17 @@ hci_status hci_search_keep_believed(hci_search *s, hci_fitted_model *model, hci_
     return status;
 }
 
-/* A type that brakes and would drive, or of the iron's mean that keeps its sign with the load, or whose terms
- * cancel; NULL: none. */
+/* A type that brakes and would drive, or of the iron's mean that keeps its sign with the load or grows faster
+ * than the current, or whose terms cancel; NULL: none. */
 static hci_status unnatural_find(const hci_search *s, const hci_candidates *candidates,
                                  const hci_effect_type **type, hci_note *note)
 {
     hci_status status = hci_brakes_find_driving(s->regression, candidates, type, note);
     if (!status && !*type) status = hci_cancelling_find(s->regression, candidates, type, note);
     for (size_t k = 0; k < candidates->count && !status && !*type; ++k)
-        if (hci_mirror_is_broken(s->regression, candidates, k)) *type = candidates->candidate[k].type;
+        if (hci_mirror_is_broken(s->regression, candidates, k) ||
+            hci_iron_would_rise(s->regression, candidates, k))
+            *type = candidates->candidate[k].type;
     return status;
 }
 

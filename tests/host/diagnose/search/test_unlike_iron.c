@@ -1,6 +1,6 @@
-/* What a rotor that looks alike both ways round cannot make: a mean torque of the iron that keeps its sign
- * when i_q turns its own. */
-#include "host/diagnose/search/mirror.h"
+/* What iron cannot make: of a rotor that looks alike both ways round a mean torque that keeps its sign when
+ * i_q turns its own, and of any a torque along q that grows faster than the current. */
+#include "host/diagnose/search/unlike_iron.h"
 
 #include "support/searching.h"
 
@@ -105,6 +105,38 @@ static void test_a_torque_of_one_sign_leaves(void)
     TEST_ASSERT_TRUE(is_broken(1));
 }
 
+/* ---- more torque per ampere ---- */
+
+/* W' = w i_d i_q²/I³ makes p w at i_q = I, beside 3/2 K I. */
+static bool rises_by(double share)
+{
+    add("saturation", "d1q2_cosine", 0.0, share * 1.5 * K_NM_PER_A * 9.0 / P);
+    return hci_iron_would_rise(search.regression, &model.candidates, 0);
+}
+
+static void test_iron_makes_no_more_torque_per_ampere(void)
+{
+    TEST_ASSERT_TRUE(rises_by(0.05));
+}
+
+static void test_a_little_more_is_believed(void)
+{
+    TEST_ASSERT_FALSE(rises_by(0.02));
+}
+
+static void test_less_is_saturation(void)
+{
+    TEST_ASSERT_FALSE(rises_by(-0.2));
+}
+
+/* i_d of half of i_q: what the current along q makes was not recorded. */
+static void test_not_without_a_current_along_q(void)
+{
+    for (int k = 2; k < 4; ++k)
+        dataset.samples.statistics[k].mean_id_A = -4.5;
+    TEST_ASSERT_FALSE(rises_by(0.05));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -115,5 +147,9 @@ int main(void)
     RUN_TEST(test_a_torque_of_one_sign_leaves);
     RUN_TEST(test_of_the_mean_alone);
     RUN_TEST(test_of_runs_in_use);
+    RUN_TEST(test_iron_makes_no_more_torque_per_ampere);
+    RUN_TEST(test_a_little_more_is_believed);
+    RUN_TEST(test_less_is_saturation);
+    RUN_TEST(test_not_without_a_current_along_q);
     return UNITY_END();
 }

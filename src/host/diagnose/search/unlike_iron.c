@@ -1,4 +1,4 @@
-#include "host/diagnose/search/mirror.h"
+#include "host/diagnose/search/unlike_iron.h"
 
 #include <math.h>
 
@@ -6,6 +6,9 @@
 #include "host/recording/rotor_frame.h"
 
 #define MOST 0.25 /* of the square that turns its sign, that angles read a little wrong leave as it is */
+
+#define ALONG_Q 0.2  /* i_d beside i_q, up to which a current is one along q */
+#define RISE    0.03 /* of the torque per ampere: up to 2 % is cross-saturation as of data/fem_c */
 
 /* A torque at i_d, i_q in two parts: what turns its sign with i_q and what does not. */
 typedef struct {
@@ -74,4 +77,39 @@ bool hci_mirror_is_broken(const hci_regression *e, const hci_candidates *candida
     if (!(own.keeps_Nm > own.turns_Nm)) return false;
     const parts all = squares_of(e, candidates, 0, candidates->count);
     return all.keeps_Nm > (any_is_direct(e) ? 1.0 : MOST) * all.turns_Nm;
+}
+
+/* ---- more torque per ampere ---- */
+
+/* The run in use with the largest mean current along q; the number of runs: none has one. */
+static size_t largest_along_q(const hci_regression *e)
+{
+    size_t largest = e->samples->run_count;
+    double most_A = 0.0;
+    for (size_t r = 0; r < e->samples->run_count; ++r) {
+        const hci_run_statistics *x = &e->samples->statistics[r];
+        const double q_A = fabs(x->mean_iq_A);
+        if (!e->use[r] || x->is_direct || fabs(x->mean_id_A) > ALONG_Q * q_A || q_A <= most_A) continue;
+        most_A = q_A;
+        largest = r;
+    }
+    return largest;
+}
+
+static bool is_of_powers(const hci_candidate *x)
+{
+    return is_of_mean(x) && x->type->beyond_quadratic;
+}
+
+bool hci_iron_would_rise(const hci_regression *e, const hci_candidates *candidates, size_t k)
+{
+    const size_t run = largest_along_q(e);
+    double more_Nm = 0.0;
+    if (!(e->declared_constant > 0.0) || run == e->samples->run_count ||
+        !is_of_powers(&candidates->candidate[k]))
+        return false;
+    for (size_t c = 0; c < candidates->count; ++c)
+        if (is_of_powers(&candidates->candidate[c])) more_Nm += parts_of(e, candidates, c, run).turns_Nm;
+    const double iq_A = e->samples->statistics[run].mean_iq_A;
+    return copysign(1.0, iq_A) * more_Nm > RISE * e->declared_constant * fabs(iq_A);
 }
