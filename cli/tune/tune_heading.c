@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cli/tune/tune_cover.h"
+#include "cli/tune/tune_duration.h"
 #include "cli/tune/tune_facts.h"
 #include "cli/tune/tune_read.h"
 #include "cli/tune/tune_recorded.h"
@@ -357,12 +358,13 @@ static void append_of_sign(cli_tuning *t)
 /* What they do not tell of the machine, and what of them was not used. */
 static void append_of_machine(cli_tuning *t)
 {
-    char order[CLI_TUNE_ORDER];
+    char order[CLI_TUNE_ORDER], words[512];
     append_of_inertia(t);
     if (cli_tune_is_uncounted(t))
         append(t, "; that there are %d pole pairs is taken on trust, since nothing in these logs counts them",
                t->declared.model.pole_pairs);
     append_of_sign(t);
+    if (cli_tune_say_long(t, words, sizeof words)) append(t, "; %s", words);
     if (cli_tune_is_off_sheet(t))
         append(t, "; the measured back-EMF is %.3g times that of the data sheet", t->emf_to_sheet);
     if (t->left_out > 0) append(t, "; %zu of %zu logs left out", t->left_out, t->left_out + t->kept.words);

@@ -66,6 +66,13 @@ unit_is() { # EXPRESSION NAME HEADER: of the columns; of --column that is said; 
 unit_is '$1 *= 1e6' time_us time_s,theta_m_rad,speed_rad_per_s,id_A,iq_A
 unit_is '$3 *= 1' speed_rad_per_s time_s,theta_m_rad,speed_rpm,id_A,iq_A
 
+# without a speed nothing contradicts it, and rows that lie seconds apart for hours are asked for
+awk -F, -v OFS=, 'NR > 1 { $1 *= 1000 } { print $1, $2, $5 }' slow.csv >hours.csv
+"$hci_solve" tune hours.csv --pole-pairs 7 --kv 120 -o hours >stdout 2>stderr
+says 'the rows of hours.csv are 5\.02 s apart, so that it took 5.55 hours: are these milliseconds\? --column .time_ms=time_s'
+"$hci_solve" tune hours.csv --pole-pairs 7 --kv 120 --column time_ms=time_s -o hours >stdout 2>stderr
+check "the remedy is asked for again" [ "$(grep -c milliseconds stdout)" -eq 0 ]
+
 # an inertia that the turns themselves ask for has an error, and what hangs on it is said
 uneven_turn() { # FILE AMPERES AT: of friction and a brake, against a back-EMF that is no sine; where in the turn it hastens forward, and by how much
     awk -v brake="$2" -v at="$3" -v share="$4" 'BEGIN { srand(2 + brake); print "time_s,theta_m_rad,speed_rad_per_s,id_A,iq_A"; way = 1; end = 4.1 * 3.141592653589793

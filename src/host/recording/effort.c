@@ -294,9 +294,25 @@ static hci_effort fit_beside_load(row *r, size_t rows)
     return effort;
 }
 
-static hci_effort over_all(hci_effort effort, const hci_effort_samples *s)
+/* Mean square of i_q that one wave of the turn has. */
+static double square_of_wave(const hci_effort_samples *s, int column)
 {
-    const double square = hci_mean_square_about(s->iq, s->count, 0.0);
+    double along = 0.0, of = 0.0;
+    for (size_t k = 0; k < s->count; ++k) {
+        double wave[WAVES] = {0.0};
+        add_waves(s->theta_m_rad[k], 1.0, wave);
+        along += wave[column] * s->iq[k];
+        of += wave[column] * wave[column];
+    }
+    return of > 0.0 ? along * along / of / (double)s->count : 0.0;
+}
+
+/* beside_load: without what comes once or twice a turn. */
+static hci_effort over_all(hci_effort effort, const hci_effort_samples *s, bool beside_load)
+{
+    double square = hci_mean_square_about(s->iq, s->count, 0.0);
+    for (int n = 0; n < WAVES && beside_load; ++n)
+        square -= square_of_wave(s, n);
     effort.of_all = square > 0.0 ? effort.of_all / sqrt(square) : 0.0;
     return effort;
 }
@@ -310,9 +326,9 @@ hci_effort hci_effort_find(const hci_effort_samples *samples)
     const size_t count = cut_to_motion(samples, w, &follows), rows = rows_of(w, count, r);
     hci_effort effort = rows < LEAST_WINDOWS - 2 ? (hci_effort){0} : fit_motion(r, rows);
     if (!follows) effort.accelerating = 0.0;
-    effort = over_all(effort, samples);
+    effort = over_all(effort, samples, false);
     if (hci_effort_way(&effort) != 0 || !effort.has_both_ways || !samples->theta_m_rad) return effort;
-    const hci_effort beside = over_all(fit_beside_load(r, rows), samples);
+    const hci_effort beside = over_all(fit_beside_load(r, rows), samples, true);
     return hci_effort_way(&beside) != 0 ? beside : effort;
 }
 

@@ -22,7 +22,7 @@ typedef struct {
     double accelerating; /* a over its standard error; 0: not told */
     double braking;      /* c over its standard error; 0: not told */
     double share;        /* c over the rms of i_q in the windows, without these orders, from -1 to 1 */
-    double of_all;       /* c over the rms of i_q in all samples */
+    double of_all;       /* c over the rms of i_q in all samples, likewise */
     bool has_both_ways;  /* forward and back: c has no weight in it */
 } hci_effort;
 

@@ -169,27 +169,6 @@ static void test_how_what_is_unknown_grows_is_told_with_small_currents(void)
     growth_is_told(0.02);
 }
 
-/* A torque that grows with the square of the current, seen in one recording: the model without it makes other
- * cogging torque, which a turn without current would show, but nothing of the effect. */
-static void test_an_effect_of_the_current_is_looked_for_with_one(void)
-{
-    static const double IQ_A[] = {0.0, 1.0, 2.0, 8.0, 0.0};
-    for (int k = 0; k < 5; ++k) {
-        play(0.0, IQ_A[k], 60.0, k == 3 ? 1800 : 300);
-        hci_run *r = &run[runs.count - 1];
-        for (size_t j = 0; j < r->count; ++j)
-            r->torque_Nm[j] += 0.002 * IQ_A[k] * IQ_A[k] * sin(6.0 * P * r->theta_m_rad[j] + 0.3);
-    }
-    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
-    for (size_t k = 0; k < diagnosis.next_points; ++k) {
-        const hci_next_point *p = &diagnosis.next[k];
-        const bool needs_current =
-            strstr(p->why, "whether there is reluctance") || strstr(p->why, "whether there is back_emf");
-        TEST_ASSERT_TRUE(!needs_current || hypot(p->id_A, p->iq_A) > 0.0);
-    }
-    TEST_ASSERT_NOT_NULL(strstr(diagnosis.advice, " would "));
-}
-
 /* What nobody has seen yet comes first. */
 static void test_the_other_direction_is_asked_for(void)
 {
@@ -212,7 +191,6 @@ int main(void)
     RUN_TEST(test_the_zero_of_the_sensor_is_told_from_friction);
     RUN_TEST(test_how_what_is_unknown_grows_is_told);
     RUN_TEST(test_the_other_direction_is_asked_for);
-    RUN_TEST(test_an_effect_of_the_current_is_looked_for_with_one);
     RUN_TEST(test_how_what_is_unknown_grows_is_told_with_small_currents);
     return UNITY_END();
 }

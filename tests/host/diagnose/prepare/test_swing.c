@@ -92,20 +92,30 @@ static void test_a_load_that_swings(void)
         TEST_ASSERT_DOUBLE_WITHIN(0.05 * NOISE_NM, NOISE_NM, left_Nm(r));
 }
 
-/* Cogging torque of which a turn has a whole number of samples, without noise and with angles of six digits:
- * what they leave of it in the changes over a turn is no swing, and a swing beside it is one. */
+/* As a file of six digits has it. */
+static double six_digits(double x)
+{
+    const double digit = fabs(x) > 0.0 ? pow(10.0, floor(log10(fabs(x))) - 5.0) : 1.0;
+    return digit * round(x / digit);
+}
+
+/* Twenty turns of 1500 samples with cogging torque of order 72 of the turn, without noise, in six digits:
+ * what these leave of it in the changes over a turn is no swing, and a swing beside it is one. */
 static void test_rounded_angles_make_no_swing(void)
 {
+    enum { MANY = 30000 };
     static const double SWING_NM[2] = {0.0, 0.02};
     for (size_t r = 0; r < 2; ++r) {
-        record(r, &(point){10.0, 47.3, 0.0, 0.0, 0.0});
-        for (size_t k = 0; k < N; ++k) {
-            const double theta = 0.3 + run[r].theta_m_rad[k];
-            const double turned = theta + 0.002 * sin(theta);
-            run[r].theta_m_rad[k] = 1e-4 * round(1e4 * turned);
-            run[r].torque_Nm[k] = 2.0 + 0.04 * sin(48.0 * turned + 0.5) +
-                                  SWING_NM[r] * sin(2.0 * REF_PI * 47.3 * run[r].time_s[k] + 1.0);
-            rec_phases(0.0, IQ_A, P * turned, run[r].i_A + 3 * k);
+        run[r] = rec_make(MANY);
+        for (size_t k = 0; k < MANY; ++k) {
+            const double t = (double)k / 12000.0, even = 0.3 + 2.0 * REF_PI * 8.0 * t;
+            const double theta = even + 0.002 * sin(even - 0.3);
+            run[r].time_s[k] = t;
+            run[r].theta_m_rad[k] = six_digits(theta);
+            run[r].speed_rad_per_s[k] = 2.0 * REF_PI * 8.0;
+            rec_phases(0.0, 4.0, P * theta, run[r].i_A + 3 * k);
+            run[r].torque_Nm[k] = six_digits(4.0 * K_NM_PER_A + 0.04 * sin(72.0 * theta + 0.8) +
+                                             SWING_NM[r] * sin(2.0 * REF_PI * 47.3 * t + 1.0));
         }
         statistics[r] = hci_run_statistics_of(&run[r], P);
         find(r, NULL);
