@@ -44,6 +44,18 @@ bool cli_tune_lacks_sign(const cli_tuning *t)
     return lacks;
 }
 
+bool cli_tune_is_electrical_alone(const cli_tuning *t)
+{
+    bool any = false;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        if (r->torque_source == HCI_TORQUE_NONE || !r->theta_m_rad) continue;
+        if (r->turn_known) return false;
+        any = true;
+    }
+    return any && t->declared.model.pole_pairs > 1;
+}
+
 bool cli_tune_off_iq(const cli_tuning *t, double *offset_deg)
 {
     for (size_t k = 0; k < t->runs.count; ++k) {

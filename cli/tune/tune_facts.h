@@ -19,6 +19,9 @@ double cli_tune_reach_of_slopes(const cli_tuning *tune);
 bool cli_tune_lacks_sign(const cli_tuning *tune);
 
 /* Whether nothing in the recordings counts the pole pairs that were given. */
+/* Whether the angle of all recordings that show a torque is one of the electrical turn alone. */
+bool cli_tune_is_electrical_alone(const cli_tuning *tune);
+
 /* Whether phase currents without a torque sensor lie elsewhere than along i_q. deg: out, the --angle-offset
  * with which they do, or half an electrical turn more. */
 bool cli_tune_off_iq(const cli_tuning *tune, double *offset_deg);

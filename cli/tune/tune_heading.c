@@ -364,6 +364,13 @@ static void append_of_machine(cli_tuning *t)
         append(t, "; that there are %d pole pairs is taken on trust, since nothing in these logs counts them",
                t->declared.model.pole_pairs);
     append_of_sign(t);
+    if (t->is_solved && cli_tune_is_electrical_alone(t))
+        append(
+            t,
+            "; the angle begins again in each of the %d electrical turns: what slots and magnets make once "
+            "in "
+            "a turn of the shaft is not told, and what these logs do not average out stands among the orders",
+            t->declared.model.pole_pairs);
     if (cli_tune_say_long(t, words, sizeof words)) append(t, "; %s", words);
     if (cli_tune_is_off_sheet(t))
         append(t, "; the measured back-EMF is %.3g times that of the data sheet", t->emf_to_sheet);

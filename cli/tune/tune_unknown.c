@@ -117,19 +117,6 @@ static void say_missed_slots(cli_tuning *t)
                    cli_tune_order_of_slots(t), t->cogging_reach);
 }
 
-/* Whether the angle of all recordings is one of the electrical turn alone. */
-static bool is_electrical_alone(const cli_tuning *t)
-{
-    bool any = false;
-    for (size_t k = 0; k < t->runs.count; ++k) {
-        const hci_run *r = &t->runs.run[k];
-        if (r->torque_source == HCI_TORQUE_NONE || !r->theta_m_rad) continue;
-        if (r->turn_known) return false;
-        any = true;
-    }
-    return any && t->declared.model.pole_pairs > 1;
-}
-
 static void say_electrical(cli_tuning *t)
 {
     const double slots = t->declared.slots;
@@ -140,7 +127,9 @@ static void say_electrical(cli_tuning *t)
         &t->tuning, HCI_TUNING_UNKNOWN,
         "What comes a number of times in a mechanical turn%s that is no multiple of the %d pole pairs: "
         "the angle is an electrical one within its turn, which does not tell one pole pair from "
-        "another. An angle of the shaft does.",
+        "another. It is not taken away, and what of it the turns of the logs do not average out stands among "
+        "the "
+        "orders found. An angle of the shaft tells it.",
         such, t->declared.model.pole_pairs);
 }
 
@@ -151,7 +140,7 @@ static void say_limits(cli_tuning *t)
     if (is_of_slopes) say_reach_of_slopes(t);
     if (cli_tune_is_off_sheet(t)) say_off_sheet(t);
     if (cli_tune_is_short(t)) say_short(t);
-    if (t->is_solved && t->cogging.kept == 0 && is_electrical_alone(t)) say_electrical(t);
+    if (t->is_solved && cli_tune_is_electrical_alone(t)) say_electrical(t);
     if (cli_tune_is_coarse(t) && !is_of_slopes) say_coarse(t);
     if (cli_tune_misses_slots(t)) say_missed_slots(t);
 }

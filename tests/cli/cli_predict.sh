@@ -96,4 +96,18 @@ check "something was written" [ ! -e "$work/refused" ]
 : >"$work/file"
 refused 5 'file' data/machine_a "$work/run.csv" -o "$work/file/x.csv"
 
+# ---- a recording of a machine with other pole pairs
+
+awk -F, -v OFS=, 'NR == 1 { for (k = 1; k <= NF; ++k) c[$k] = k; print "time_s,theta_m_rad,ia_A,ib_A,ic_A,torque_Nm"; next }
+    { e = 2 * $c["theta_m_rad"]; print $c["time_s"], $c["theta_m_rad"], 5 * sin(e), 5 * sin(e - 2.0943951), 5 * sin(e + 2.0943951), $c["torque_Nm"] }' "$work/imposed/trajectory.csv" >"$work/two.csv"
+cp -R data/machine_a "$work/three"
+sed -i 's/^pole_pairs,2/pole_pairs,3/' "$work/three/machine.csv"
+run 0 predict "$work/three" "$work/two.csv"
+says 'the phase currents go round 2 times in a turn of the shaft, and the machine has 3 pole pairs'
+run 0 predict data/machine_a "$work/two.csv"
+check "the right pole pairs are doubted" [ "$(grep -c 'go round' "$work/stderr" "$work/stdout" | grep -vc ':0$')" -eq 0 ]
+printf 'file,role\ntwo.csv,fit\n' >"$work/two_list.csv"
+"$hci_solve" fit "$work/three" --runs "$work/two_list.csv" -o "$work/three_fit" >"$work/stdout" 2>"$work/stderr"
+says 'the phase currents go round 2 times in a turn of the shaft, and the machine has 3 pole pairs'
+
 finish

@@ -73,6 +73,13 @@ says 'the rows of hours.csv are 5\.02 s apart, so that it took 5.55 hours: are t
 "$hci_solve" tune hours.csv --pole-pairs 7 --kv 120 --column time_ms=time_s -o hours >stdout 2>stderr
 check "the remedy is asked for again" [ "$(grep -c milliseconds stdout)" -eq 0 ]
 
+# an angle that begins again in each electrical turn does not tell what comes once in a turn of the shaft, and that is said
+awk -F, -v OFS=, 'NR == 1 { $2 = "theta_e_rad" } NR > 1 { e = 7 * $2; $2 = e - 6.283185307179586 * int(e / 6.283185307179586) } 1' slow.csv >electrical.csv
+"$hci_solve" tune electrical.csv --pole-pairs 7 --kv 120 -o electrical >stdout 2>stderr
+says '; the angle begins again in each of the 7 electrical turns: what slots and magnets make once in'
+check "what the shaft has is not said" grep -q 'What comes a number of times in a mechanical turn' electrical/summary.json
+check "a shaft is electrical" [ "$(grep -c 'begins again in each' slow/summary.json plain/summary.json 2>/dev/null | grep -vc ':0$')" -eq 0 ]
+
 # an inertia that the turns themselves ask for has an error, and what hangs on it is said
 uneven_turn() { # FILE AMPERES AT: of friction and a brake, against a back-EMF that is no sine; where in the turn it hastens forward, and by how much
     awk -v brake="$2" -v at="$3" -v share="$4" 'BEGIN { srand(2 + brake); print "time_s,theta_m_rad,speed_rad_per_s,id_A,iq_A"; way = 1; end = 4.1 * 3.141592653589793

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "hci/math/harmonic.h"
+
 hci_dq hci_run_dq(const hci_run *run, int pole_pairs, size_t k)
 {
     const double theta_m_rad = run->theta_m_rad ? run->theta_m_rad[k] : 0.0;
@@ -32,6 +34,46 @@ bool hci_run_currents_in_line(const hci_run *run, double *angle_rad)
     const double half = 0.5 * (dd + qq), spread = hypot(0.5 * (dd - qq), dq);
     *angle_rad = -0.5 * atan2(2.0 * dq, qq - dd);
     return half > 0.0 && half - spread < ACROSS * (half + spread);
+}
+
+/* ---- how often they go round ---- */
+
+#define STEADY_SHARE 0.2  /* of the mean length of the current, rms about it */
+#define FAR_RAD      2.0  /* of a step of the current: from one row to the next */
+#define FAR_SHARE    0.02 /* of the rows, that may be further */
+#define OF_A_TURN    0.03 /* by which a number of times is whole */
+
+static bool is_steady(const hci_run *run)
+{
+    double sum = 0.0, square = 0.0;
+    for (size_t k = 0; k < run->count; ++k) {
+        const hci_alpha_beta i = hci_clarke(run->i_A + 3 * k);
+        sum += hypot(i.alpha, i.beta) / (double)run->count;
+        square += (i.alpha * i.alpha + i.beta * i.beta) / (double)run->count;
+    }
+    return sum > 0.0 && square - sum * sum < STEADY_SHARE * STEADY_SHARE * sum * sum;
+}
+
+bool hci_run_currents_go_otherwise(const hci_run *run, double *turns)
+{
+    double way_rad = 0.0, turned_rad = 0.0;
+    size_t far = 0;
+    if (!run->i_A || !run->theta_m_rad || !run->turn_known || run->is_electrical || run->count < 2)
+        return false;
+    if (!(run->has_sum || run->computed_phase > 0) || !is_steady(run)) return false;
+    for (size_t k = 1; k < run->count; ++k) {
+        const hci_alpha_beta a = hci_clarke(run->i_A + 3 * (k - 1)), b = hci_clarke(run->i_A + 3 * k);
+        const double step_rad =
+            atan2(a.alpha * b.beta - a.beta * b.alpha, a.alpha * b.alpha + a.beta * b.beta);
+        const double moved_rad = run->theta_m_rad[k] - run->theta_m_rad[k - 1];
+        far += fabs(step_rad) > FAR_RAD;
+        turned_rad += moved_rad < 0.0 ? -step_rad : step_rad;
+        way_rad += fabs(moved_rad);
+    }
+    *turns = way_rad > HCI_PI ? turned_rad / way_rad : (double)run->pole_pairs;
+    const double whole = round(*turns);
+    return (double)far < FAR_SHARE * (double)run->count && fabs(*turns - whole) < OF_A_TURN * fabs(whole) &&
+           fabs(whole) >= 1.0 && fabs(fabs(whole) - run->pole_pairs) > 0.5;
 }
 
 /* ---- crests ---- */

@@ -21,6 +21,11 @@ void hci_phases_of_dq(hci_dq x, double theta_e_rad, double abc[3]);
  * the angle between that line and i_q, 0 to 1. O(samples). */
 bool hci_run_currents_in_line(const hci_run *run, double *iq_share);
 
+/* Whether phase currents of a steady length go round another whole number of times in a turn of the shaft
+ * than there are pole pairs, of a run with a mechanical angle. turns: out, how many, negative against the
+ * angle. False where rows lie too far apart. O(samples). */
+bool hci_run_currents_go_otherwise(const hci_run *run, double *turns);
+
 /* Whether a phase current or i_q stands at its least or its largest value in 1 % of the samples or more, and
  * in fewer than half of them, and five times as often as within a twentieth of it, where there are some: a
  * current that was rounded coarsely stands at its other values as well. Before anything is taken out of the

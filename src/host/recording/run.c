@@ -559,6 +559,17 @@ static void drop_zero_of_open(reader *r)
     run->torque_Nm = NULL;
 }
 
+static void say_pole_pairs(reader *r)
+{
+    double turns;
+    if (hci_run_currents_go_otherwise(r->run, &turns))
+        hci_note_add(
+            &r->run->remark,
+            "the phase currents go round %.0f times in a turn of the shaft, and the machine has %d pole "
+            "pairs: it is of another machine, or the angle is none of the shaft",
+            fabs(turns), r->pole_pairs);
+}
+
 static hci_status read_torque(reader *r)
 {
     hci_run *run = r->run;
@@ -566,6 +577,7 @@ static hci_status read_torque(reader *r)
     if (!status) status = drop_computed(r);
     if (status) return status;
     say_clipped(r);
+    say_pole_pairs(r);
     drop_typed(r);
     drop_zero_of_open(r);
     hci_run_computed_torque_leave(&r->columns);
