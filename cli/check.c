@@ -101,7 +101,7 @@ static void show_alternatives(const hci_check_finding *f)
 {
     cli_say("    or instead: ");
     for (size_t k = 0; k < f->alternatives; ++k)
-        cli_say("%s%s", k > 0 ? ", " : "", f->alternative[k]);
+        cli_say("%s%s (%s)", k > 0 ? ", or " : "", f->alternative_words[k], f->alternative[k]);
     cli_say("; would tell: %s\n", f->told_by);
 }
 

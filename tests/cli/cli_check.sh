@@ -34,7 +34,7 @@ run 1 check "$work/typed"
 says 'emf_orders_mechanical: the orders of back_emf.csv are per mechanical turn'
 printf 'order,amplitude_Nm_per_A,phase_rad\n1,-0.892,0\n' >"$work/typed/back_emf.csv"
 run 1 check "$work/typed"
-says '^ambiguous: ' 'possible angle_zero_d_axis' 'or instead: emf_sign; would tell: '
+says '^ambiguous: ' 'possible angle_zero_d_axis' 'or instead: [a-z][^;]* .emf_sign.; would tell: '
 
 # ---- bounds, what leaves no trace, what is only possible, what is nearer
 
