@@ -97,4 +97,8 @@ bool cli_tune_is_boundless(const cli_tuning *tune);
  * none away since none was found. */
 bool cli_tune_is_of_no_use(const cli_tuning *tune);
 
+/* Whether a recording without a speed took so long, with rows so far apart, that its time may be in
+ * milliseconds; text: out, the question. */
+bool cli_tune_say_long(const cli_tuning *tune, char *text, size_t size);
+
 #endif

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "cli/tune/tune_cover.h"
-#include "cli/tune/tune_duration.h"
 #include "cli/tune/tune_facts.h"
 #include "cli/tune/tune_read.h"
 #include "cli/tune/tune_recorded.h"
