@@ -50,11 +50,27 @@ static void say_counts(const cli_arguments *a, const hci_fleet_count *c)
         cli_say("  the same command goes on from there\n");
 }
 
+enum { MOST_REASONS = 3 }; /* on the terminal; fleet.csv has them all */
+
+/* Of the first motors without a result. */
+static void say_reasons(const cli_batch_work *w)
+{
+    size_t said = 0;
+    for (size_t k = 0; k < w->batch->list.count && said < MOST_REASONS; ++k) {
+        char reason[HCI_FLEET_REASON_SIZE] = "";
+        if (w->row[k]) hci_fleet_row_reason(w->row[k], reason);
+        if (!reason[0]) continue;
+        cli_say("  %-12s %s\n", hci_fleet_cell(&w->batch->list, k, "motor"), reason);
+        ++said;
+    }
+}
+
 static hci_status give(const cli_arguments *a, const cli_batch_work *w, hci_note *note)
 {
     const hci_fleet_count c = hci_fleet_count_rows(w->row, w->batch->list.count);
     hci_status status = HCI_OK;
     if (cli_is_wordy()) say_counts(a, &c);
+    if (cli_is_wordy()) say_reasons(w);
     if (a->given[JSON] && c.done == c.motors) status = cli_print_json(hci_summary_read(a->value[OUT]), note);
     if (status) return status;
     return c.of[HCI_FLEET_FAILED] + c.of[HCI_FLEET_LATE] + c.of[HCI_FLEET_CRASHED] > 0 ? HCI_NOT_REACHED

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "cli/command/replaced.h"
 #include "cli/terminal/progress.h"
@@ -57,6 +58,12 @@ hci_status cli_tune_list_logs(cli_tuning *t, hci_note *note)
     return hci_tuning_write_list(t->out, a->word, a->words, test, note);
 }
 
+static bool is_folder(const char *path)
+{
+    struct stat there;
+    return stat(path, &there) == 0 && S_ISDIR(there.st_mode);
+}
+
 /* What can be refused before any work. */
 static hci_status check_words(const cli_arguments *a, hci_note *note)
 {
@@ -70,6 +77,14 @@ static hci_status check_words(const cli_arguments *a, hci_note *note)
             return hci_note_set(note, HCI_ERROR_ARGUMENT,
                                 "tune: found `-`, expected a file: a log is read several times, which the "
                                 "standard input is not; save it as a CSV file and give that");
+    for (size_t k = 0; k < a->words && !a->given[TUNE_RUNS]; ++k)
+        if (is_folder(a->word[k]))
+            return hci_note_set(
+                note, HCI_ERROR_ARGUMENT,
+                "tune: found the folder %s among the logs, expected files; a machine is given "
+                "with a list of its logs, tune %s --runs LIST, and logs alone with the sheet, "
+                "tune LOG... --pole-pairs P --kv RPM_PER_V",
+                a->word[k], a->word[k]);
     for (size_t k = 0; k < a->words; ++k)
         for (size_t other = 0; other < k; ++other)
             if (strcmp(a->word[k], a->word[other]) == 0)

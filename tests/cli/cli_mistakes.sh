@@ -136,4 +136,12 @@ run 3 simulate m s.csv; says 's.csv:3: .*`prescribed_sped`.*did you mean `prescr
 printf 'name,value,unit\nduration,40,ms\nfrobnicate,1,\n' >s.csv
 run 3 simulate m s.csv; says 'found `frobnicate`, expected a name that is known here; docs/simulate.md lists all'
 
+# ---- a machine among logs, and why a motor failed
+
+log $names
+run 2 tune m r.csv -o with_machine; says 'found the folder m among the logs, expected files; .*tune m --runs LIST'
+printf 'motor,logs\nm1,r.csv\n' >motors.csv
+"$hci_solve" batch motors.csv --command tune -o batch_said >stdout 2>stderr
+check 'why a motor failed is in fleet.csv alone' grep -q '^  m1  *init: no pole pairs; add --pole-pairs P' stdout
+
 finish

@@ -183,6 +183,14 @@ hci_fleet_state hci_fleet_row_state(const char *row)
     return (hci_fleet_state)state;
 }
 
+void hci_fleet_row_reason(const char *row, char reason[HCI_FLEET_REASON_SIZE])
+{
+    reason[0] = '\0';
+    if (hci_fleet_row_state(row) <= HCI_FLEET_OPEN) return;
+    hci_fleet_row_cell(row, "motor,serial,batch,date,state,exit_code,verdict,reason", "reason", reason,
+                       HCI_FLEET_REASON_SIZE);
+}
+
 hci_status hci_fleet_forget(const hci_fleet_results *results, size_t motor, hci_note *note)
 {
     char path[PATH_SIZE], part[PATH_SIZE];

@@ -96,6 +96,9 @@ hci_status hci_fleet_known(const hci_fleet_results *results, size_t motor, const
 /* The state in a row. */
 hci_fleet_state hci_fleet_row_state(const char *row);
 
+/* Why a row has no result, as its column `reason`; "": it has one. reason: out. */
+void hci_fleet_row_reason(const char *row, char reason[HCI_FLEET_REASON_SIZE]);
+
 /* Takes away a motor that is done, so that it is done again. HCI_ERROR_OUTPUT. */
 hci_status hci_fleet_forget(const hci_fleet_results *results, size_t motor, hci_note *note);
 
