@@ -102,6 +102,17 @@ static void test_no_delay_is_found_in_noise(void)
     TEST_ASSERT_TRUE(find(0.0, 0.1).gain < 12.0);
 }
 
+/* A residual of nothing: there is no gain, and no delay. */
+static void test_nothing_left_has_no_delay(void)
+{
+    hci_late_torque found;
+    memset(search.residual_Nm, 0, dataset.samples.count * sizeof *search.residual_Nm);
+    TEST_ASSERT_EQUAL_INT(HCI_OK,
+                          hci_late_torque_find(&dataset.regression, search.residual_Nm, &found, &note));
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, found.gain);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, found.delay_s);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -109,5 +120,6 @@ int main(void)
     RUN_TEST(test_bins_make_no_smaller_steps);
     RUN_TEST(test_all_runs_count_and_holes_do_not);
     RUN_TEST(test_no_delay_is_found_in_noise);
+    RUN_TEST(test_nothing_left_has_no_delay);
     return UNITY_END();
 }
