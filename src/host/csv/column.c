@@ -112,7 +112,7 @@ static hci_column_match find_given(const hci_csv *csv, const hci_wanted_column *
         const size_t column = csv->given[k].column;
         if (!hci_column_split(csv->given[k].name, want, &said)) continue;
         if (said != NULL && said->dimension != want->unit->dimension) continue;
-        hci_column_match result = {.kind = HCI_COLUMN_ONE, .column = column, .factor = 1};
+        hci_column_match result = {.kind = HCI_COLUMN_ONE, .column = column};
         const hci_unit *of_file = hci_column_unit(csv, column);
         const hci_unit *unit = said != NULL ? said : of_file;
         const bool is_counted = csv->given[k].counts > 0.0;

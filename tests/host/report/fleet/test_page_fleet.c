@@ -6,6 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "host/plot/fleet/plot_fleet.h"
+#include "support/pictures.h"
 #include "support/texts.h"
 #include "support/written.h"
 #include "unity.h"
@@ -144,11 +146,33 @@ static void test_what_changes(void)
     text_lacks("left rms differs", page);
 }
 
+/* The picture of two motors, one of which stands out: days apart, at the two ends of its range. */
+static void test_motors_over_their_dates(void)
+{
+    const hci_svg_box box = {100.0, 50.0, 900.0, 250.0};
+    line.motors = 2;
+    motor[0].stands_out = true;
+    motor[0].deviation = 6.0;
+    motor[1].day = 40.0;
+    hci_output *out = written_begin("p.svg");
+    hci_svg_begin(out, &(hci_svg_picture){"p", "t", "d", 0, 0, 1000, 300});
+    hci_plot_motors(out, &box, &line);
+    hci_svg_end(out);
+    picture_text = written_end(out, "p.svg");
+    text_is_xml(picture_text);
+    const char *odd = picture_behind("<g><title>m0: cogging sine_6, 6.0 standard deviations</title>", 0);
+    const double first = picture_attribute(strstr(odd, "<circle class=\"ring\""), "cx");
+    const char *sound =
+        picture_behind("<circle class=\"before\"", text_count("<circle class=\"before\"", picture_text) - 1);
+    TEST_ASSERT_TRUE(picture_attribute(sound, "cx") > first + 600.0);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_who_stands_out);
     RUN_TEST(test_parameters);
     RUN_TEST(test_what_changes);
+    RUN_TEST(test_motors_over_their_dates);
     return UNITY_END();
 }
