@@ -1,8 +1,9 @@
 /* A machine whose iron saturates by a law that is no polynomial,
  *
- *     W' = −A (1 + b cos 6θ) [√(1 + ((i_d + I_m)² + i_q²)/I_s²) − what of it is linear at i = 0]
+ *     W' = A (1 + b cos 6θ) [√(1 + ((i_d + I_m)² + i_q²)/I_s²) − what of it is linear at i = 0]
  *
- * so that every series is an approximation, and recordings of it. Include once in a test. */
+ * so that every series is an approximation: a current along q takes flux from the magnets. And recordings of
+ * it. Include once in a test. */
 #ifndef SATURATED_IRON_H
 #define SATURATED_IRON_H
 
@@ -35,7 +36,7 @@ static inline double torque_of_iron(double theta, double d, double q)
     const double by_d = (d + MAGNETS_A) / (root * knee) - MAGNETS_A / (root_0 * knee),
                  by_q = q / (root * knee);
     const double shape = 1.0 + RIPPLE * cos(6.0 * theta), slope = -6.0 * RIPPLE * sin(6.0 * theta);
-    return -P * SIZE_NM * (slope * w + shape * (q * by_d - d * by_q));
+    return P * SIZE_NM * (slope * w + shape * (q * by_d - d * by_q));
 }
 
 /* One electrical turn, mechanically standing for slow, with a ripple in i_q. */
