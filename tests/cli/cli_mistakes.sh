@@ -127,6 +127,12 @@ check 'the machine is to be written over' [ "$(grep -c -- '--out m ' stderr)" = 
 mkdir -p tuned/diagnose/declared; cp m/machine.csv tuned/diagnose/declared
 run 3 diagnose --again tuned --runs runs.csv -o diagnosed; says 'found the --out of `tune`, .*; write --again tuned/diagnose$'
 rm -r tuned
+for kind in tune=currents diagnose=solution; do
+    mkdir -p held/machine held/${kind#*=}; cp m/machine.csv held/machine; echo order,set,amplitude_A,phase_rad >held/${kind#*=}/currents.csv
+    run 3 emit held --name x -o emitted; says "held: found the results of ${kind%=*}, .*; it stands in there: give held/${kind#*=}\$"; rm -r held
+done
+mkdir -p held/machine; cp m/machine.csv held/machine
+run 3 emit held --name x -o emitted; says 'held: found the results of diagnose, .*hci-solve solve held/machine '; rm -r held
 printf 'time_s,theta_m_rad,iq_A\n0,0,1\n' >log.csv
 run 3 simulate m log.csv -o s; says 'log.csv: found a table whose first column is `time_s`, expected a scenario: .*a recording to `predict`, '
 run 2 sovle m; says 'did you mean `solve`\?'

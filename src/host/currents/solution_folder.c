@@ -89,11 +89,23 @@ static bool has_file(const char *folder, const char *file)
     return length > 0 && length < PATH_SIZE && stat(path, &info) == 0;
 }
 
+/* Folders of results that have the folder of a solution in them. */
+static const struct {
+    const char *command, *part, *currents;
+} HOLDING_SOLUTION[] = {{"tune", "currents", "currents/currents.csv"},
+                        {"diagnose", "solution", "solution/currents.csv"}};
+
 /* A folder without currents: what it is, and what makes some. */
 static hci_status no_currents(const char *folder, hci_note *note)
 {
     char path[HCI_QUOTE_PATH_SIZE];
     const char *shown = hci_quote_path(folder, path);
+    for (size_t k = 0; k < sizeof HOLDING_SOLUTION / sizeof *HOLDING_SOLUTION; ++k)
+        if (has_file(folder, HOLDING_SOLUTION[k].currents))
+            return hci_note_set(note, HCI_ERROR_INPUT,
+                                "%s: found the results of %s, expected a folder that solve wrote, with "
+                                "currents.csv; it stands in there: give %s/%s",
+                                shown, HOLDING_SOLUTION[k].command, shown, HOLDING_SOLUTION[k].part);
     if (has_file(folder, "machine.csv"))
         return hci_note_set(
             note, HCI_ERROR_INPUT,
