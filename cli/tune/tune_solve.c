@@ -229,13 +229,19 @@ static void say_angle(cli_tuning *t, const char *angle_deg)
                        "with i_q alone, as in the recordings: what an i_d does they do not tell");
 }
 
-/* Where an effect was found that acts with the current, and all currents lie on one line, how it acts off
- * that line is supposed, or one of several explanations, and not measured: the table keeps to the line. */
+static bool inductances_are_declared(const hci_machine_data *m)
+{
+    return m->inductance_count > 0 || (m->inductance_d_H > 0.0 && m->inductance_q_H > 0.0);
+}
+
+/* Where all currents lie on one line, what an effect that acts with the current makes off that line, or a
+ * saliency that nobody declared, is supposed and not measured: the table keeps to the line. */
 static void keep_angle(cli_tuning *t, hci_solve_options *o, char text[32], cli_tune_line *c)
 {
     double angle_deg;
-    t->keeps_angle =
-        with_current(&t->found.list) > with_current(&t->effects.list) && cli_tune_line_is_kept(t, &angle_deg);
+    const bool is_open = with_current(&t->found.list) > with_current(&t->effects.list) ||
+                         !inductances_are_declared(&t->corrected);
+    t->keeps_angle = is_open && cli_tune_line_is_kept(t, &angle_deg);
     cli_tune_add_option(c, t->keeps_angle ? "method" : "auto", t->keeps_angle ? "pointwise" : NULL);
     if (!t->keeps_angle) return;
     snprintf(text, 32, "%.3g", angle_deg);

@@ -117,6 +117,7 @@ void cli_tune_say_unit_of_ratio(const cli_tuning *t, double ratio, char text[CLI
     } UNITS[] = {
         {360.0, TURN, "360 is degrees in a column that is read in turns", "theta_m_deg", 'a'},
         {180.0 / HCI_PI, 1.0, "180/π is degrees in a column that is read in rad", "theta_m_deg", 'a'},
+        {0.5 / HCI_PI, TURN, "1/2π is rad/s in a column that is read in turn/s", "speed_rad_per_s", 's'},
         {0.5 / HCI_PI, 1.0, "1/2π is turns in a column that is read in rad", "theta_m_turn", 'a'},
         {30.0 / HCI_PI, RPM, "30/π is rad/s in a column that is read in rpm", "speed_rad_per_s", 's'},
         {HCI_PI / 30.0, 1.0, "π/30 is rpm in a column that is read in rad/s", "speed_rpm", 's'},

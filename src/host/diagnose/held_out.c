@@ -349,6 +349,7 @@ hci_status hci_held_out_idle_series(hci_dataset *b, const hci_runs *runs, const 
 /* ---- of a search that ended early ---- */
 
 #define STANDS_STILL 0.02  /* of an error: by that it is no other one */
+#define MINOR        1e-3  /* of what all effects explain */
 #define STANDS       0.333 /* of what is explained: rms of what is not, beside which that stands */
 
 /* Whether what is left of an error is small beside what is explained of it. */
@@ -388,8 +389,16 @@ static bool stands_out(const hci_attribution *a, const hci_verdict *v)
     return a->unknown ? a->unexplained_Nm < STANDS * v->explained_Nm : v->compared;
 }
 
+/* Whether an effect is next to nothing of what all explain, and no run was held out that could tell it from
+ * what the search had still to look at. */
+static bool is_minor_untested(const hci_attribution *a, const hci_diagnosis *d, const hci_verdict *v)
+{
+    return !isfinite(d->holdout_after_Nm) && v->gain < MINOR * gain_of_all(a);
+}
+
 bool hci_is_unconfirmed(const hci_attribution *a, const hci_diagnosis *d, const hci_verdict *v)
 {
     return a->ended == HCI_WORK_LIMITED && v->in && v->type != &hci_empirical_type && !v->established &&
-           (a->unsettled || !is_found_without_runs(v) || !stands_out(a, v) || is_much_held_out(d));
+           (a->unsettled || is_minor_untested(a, d, v) || !is_found_without_runs(v) || !stands_out(a, v) ||
+            is_much_held_out(d));
 }

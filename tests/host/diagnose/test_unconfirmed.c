@@ -118,6 +118,21 @@ static void test_means_of_runs_held_out(void)
     TEST_ASSERT_TRUE(is_unconfirmed());
 }
 
+/* What is next to nothing beside the others, of recordings of which none was held out. */
+static void test_small_ones_need_runs_held_out(void)
+{
+    a.before.score = 1e6;
+    a.model.fit.score = 0.0;
+    v.gain = 900.0;
+    TEST_ASSERT_TRUE(is_unconfirmed());
+    v.gain = 1100.0;
+    TEST_ASSERT_FALSE(is_unconfirmed());
+    v.gain = 900.0;
+    d.holdout_before_Nm = 0.3;
+    d.holdout_after_Nm = d.holdout_noise_Nm = 0.02;
+    TEST_ASSERT_FALSE(is_unconfirmed());
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -128,5 +143,6 @@ int main(void)
     RUN_TEST(test_beside_something_unknown);
     RUN_TEST(test_runs_held_out);
     RUN_TEST(test_means_of_runs_held_out);
+    RUN_TEST(test_small_ones_need_runs_held_out);
     return UNITY_END();
 }
