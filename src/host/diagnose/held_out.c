@@ -383,22 +383,29 @@ static bool is_found_without_runs(const hci_verdict *v)
     return 3 * v->stays >= 2 * v->left_out;
 }
 
-/* Beside something unknown nothing is compared. */
-static bool stands_out(const hci_attribution *a, const hci_verdict *v)
+/* Whether an effect is next to nothing of what all explain. */
+static bool is_minor(const hci_attribution *a, const hci_verdict *v)
 {
-    return a->unknown ? a->unexplained_Nm < STANDS * v->explained_Nm : v->compared;
+    return v->gain < MINOR * gain_of_all(a);
 }
 
-/* Whether an effect is next to nothing of what all explain, and no run was held out that could tell it from
- * what the search had still to look at. */
-static bool is_minor_untested(const hci_attribution *a, const hci_diagnosis *d, const hci_verdict *v)
+/* What is next to nothing needs runs held out that tell it from what the search had still to look at. */
+static bool is_untested(const hci_attribution *a, const hci_diagnosis *d, const hci_verdict *v)
 {
-    return !isfinite(d->holdout_after_Nm) && v->gain < MINOR * gain_of_all(a);
+    return is_minor(a, v) && !isfinite(d->holdout_after_Nm);
+}
+
+/* Beside something unknown nothing is compared. Where there is nothing unknown, what is not next to nothing
+ * needs no comparison. */
+static bool stands_out(const hci_attribution *a, const hci_verdict *v)
+{
+    if (a->unknown) return a->unexplained_Nm < STANDS * v->explained_Nm;
+    return v->compared || !is_minor(a, v);
 }
 
 bool hci_is_unconfirmed(const hci_attribution *a, const hci_diagnosis *d, const hci_verdict *v)
 {
     return a->ended == HCI_WORK_LIMITED && v->in && v->type != &hci_empirical_type && !v->established &&
-           (a->unsettled || is_minor_untested(a, d, v) || !is_found_without_runs(v) || !stands_out(a, v) ||
+           (a->unsettled || is_untested(a, d, v) || !is_found_without_runs(v) || !stands_out(a, v) ||
             is_much_held_out(d));
 }

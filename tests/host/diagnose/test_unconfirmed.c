@@ -17,12 +17,14 @@ void setUp(void)
     memset(&a, 0, sizeof a);
     memset(&d, 0, sizeof d);
     a.ended = HCI_WORK_LIMITED;
+    a.before.score = 1e6; /* what all effects explain */
     d.holdout_before_Nm = d.holdout_after_Nm = d.holdout_noise_Nm = NAN;
     d.holdout_mean_before_Nm = d.holdout_mean_after_Nm = NAN;
     d.holdout_ripple_before_Nm = d.holdout_ripple_after_Nm = NAN;
     v = (hci_verdict){.type = hci_effect_type_find("back_emf"),
                       .in = true,
                       .compared = true,
+                      .gain = 5e5,
                       .explained_Nm = 0.3,
                       .stays = 7,
                       .left_out = 7};
@@ -37,10 +39,13 @@ static bool is_unconfirmed(void)
     return hci_is_unconfirmed(&a, &d, &v);
 }
 
+/* Or makes a plain part of all. */
 static void test_what_was_compared_is_confirmed(void)
 {
     TEST_ASSERT_FALSE(is_unconfirmed());
     v.compared = false;
+    TEST_ASSERT_FALSE(is_unconfirmed());
+    v.gain = 900.0;
     TEST_ASSERT_TRUE(is_unconfirmed());
     v.established = true; /* by the runs without a current alone */
     TEST_ASSERT_FALSE(is_unconfirmed());
@@ -121,8 +126,6 @@ static void test_means_of_runs_held_out(void)
 /* What is next to nothing beside the others, of recordings of which none was held out. */
 static void test_small_ones_need_runs_held_out(void)
 {
-    a.before.score = 1e6;
-    a.model.fit.score = 0.0;
     v.gain = 900.0;
     TEST_ASSERT_TRUE(is_unconfirmed());
     v.gain = 1100.0;
@@ -131,6 +134,8 @@ static void test_small_ones_need_runs_held_out(void)
     d.holdout_before_Nm = 0.3;
     d.holdout_after_Nm = d.holdout_noise_Nm = 0.02;
     TEST_ASSERT_FALSE(is_unconfirmed());
+    v.compared = false;
+    TEST_ASSERT_TRUE(is_unconfirmed());
 }
 
 int main(void)
