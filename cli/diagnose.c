@@ -308,7 +308,8 @@ static hci_status compare(const cli_arguments *a, const inputs *in, hci_status s
     if (!a->value[AGAIN]) return searched;
     const hci_status status = hci_again_find(&question, d, again, note);
     if (status) hci_diagnosis_release(d);
-    return status ? status : searched;
+    if (status) return status;
+    return hci_again_is_bad(again) ? HCI_NOT_REACHED : searched;
 }
 
 static int run(const cli_arguments *a)
@@ -347,7 +348,8 @@ const cli_command cli_diagnose = {
     .word_kind = CLI_FILE,
     .example =
         "  hci-solve diagnose data/fem_c/machine --runs data/fem_c/runs.csv -o out/diagnosed\n"
-        "\nExit codes: 0 explained, or nothing is missing; 1 ambiguous or not explained; " CLI_EXIT_ERRORS,
+        "\nExit codes: 0 explained, or nothing is missing; 1 ambiguous or not explained, or with --again a "
+        "promised ripple that was not kept or currents that are played at another angle; " CLI_EXIT_ERRORS,
     .source = "cli/diagnose.c",
     .guide = "diagnose.md",
     .run = run,

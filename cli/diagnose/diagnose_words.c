@@ -59,7 +59,7 @@ static void show_slips(const hci_diagnosis *d)
 
 static void show_again(const hci_again *a)
 {
-    char words[2048];
+    char words[HCI_AGAIN_WORDS];
     hci_again_words(a, words, sizeof words);
     cli_say("  again\n");
     cli_say_paragraph(4, words);

@@ -156,6 +156,14 @@ static hci_again_run run_of(const hci_run_errors *last, const hci_run_errors *no
                            .kept = last->rms_after_Nm <= bound_Nm};
 }
 
+static hci_status played_fill(const hci_again_question *q, size_t run, const hci_again *a, hci_again_run *to,
+                              hci_note *note)
+{
+    const hci_run *r = &q->runs->run[run];
+    to->path = q->runs->origin && q->runs->origin[run].path ? q->runs->origin[run].path : r->name;
+    return hci_played_judge(&a->solved, r, q->machine->model.pole_pairs, &to->played, note);
+}
+
 /* then: a diagnosis that has nothing but the effects and errors of the last machine on all recordings. */
 /* A diagnosis, and the errors of the machine of last time on the same runs. */
 typedef struct {
@@ -173,7 +181,9 @@ static hci_status runs_fill(const hci_again_question *q, const hci_dataset *b, c
         double open_Nm;
         if (!e) continue;
         status = open_of(b, &last->uncertainty, k, &open_Nm, note);
-        if (!status) a->run[a->runs++] = run_of(e, errors_of(d->now, e->file), open_Nm);
+        if (status) break;
+        a->run[a->runs] = run_of(e, errors_of(d->now, e->file), open_Nm);
+        status = played_fill(q, k, a, &a->run[a->runs++], note);
     }
     return status;
 }
@@ -312,6 +322,7 @@ hci_status hci_again_find(const hci_again_question *q, hci_diagnosis *d, hci_aga
     memset(a, 0, sizeof *a);
     a->recordings_before = q->recordings_before;
     hci_status status = last_read(q->folder, &last, note);
+    if (!status) status = hci_solved_currents_find(q->folder, &a->solved, note);
     if (!status) status = new_runs_fill(q, &last, d, a, note);
     if (!status) status = effects_fill(&last, d, a, note);
     last_release(&last);
@@ -320,8 +331,17 @@ hci_status hci_again_find(const hci_again_question *q, hci_diagnosis *d, hci_aga
     return status;
 }
 
+bool hci_again_is_bad(const hci_again *a)
+{
+    bool is_bad = false;
+    for (size_t k = 0; k < a->runs; ++k)
+        is_bad = is_bad || hci_played_is_bad(&a->run[k].played);
+    return is_bad;
+}
+
 void hci_again_release(hci_again *a)
 {
+    hci_solved_currents_release(&a->solved);
     hci_memory_free(a->run);
     memset(a, 0, sizeof *a);
 }

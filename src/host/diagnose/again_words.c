@@ -5,6 +5,8 @@
 #include "hci/host/diagnose/again.h"
 #include "host/base/words.h"
 
+enum { MOST_PLAYED = 8 };
+
 #define SAME 0.02 /* change of an error, as a share, that is none */
 
 const char *hci_again_change_name(hci_again_change change)
@@ -20,11 +22,12 @@ static void say_prediction(const hci_words *w, const hci_again *a)
                   "fit to them; the declared machine is off by %.3g N·m there, and %.3g N·m are noise.",
                   a->runs, a->runs == 1 ? "" : "s", a->last_Nm, a->declared_Nm, a->noise_Nm);
     if (a->bounded == 0)
-        hci_words_say(w, " No bound was stated last time, so there was no promise to keep.");
+        hci_words_say(w, " No bound was stated last time of that error.");
     else
-        hci_words_say(
-            w, " It was within what had been stated (%.3g N·m, 95 %%) in %zu of %zu: the promise was %s.",
-            a->bound_Nm, a->kept, a->bounded, a->kept == a->bounded ? "kept" : "not kept");
+        hci_words_say(w,
+                      " It was within what had been stated (%.3g N·m, 95 %%) in %zu of %zu: what was stated "
+                      "of the model %s.",
+                      a->bound_Nm, a->kept, a->bounded, a->kept == a->bounded ? "holds" : "does not hold");
 }
 
 static void say_now(const hci_words *w, const hci_again *a)
@@ -51,6 +54,30 @@ static void say_effect(const hci_words *w, const hci_again_effect *e)
         hci_words_say(w, " %s has changed by %.3g standard errors: %s.", e->effect, e->deviations, e->words);
 }
 
+/* Of runs that have not the currents that were solved the first alone: rounds of diagnosis have many. */
+static void say_played(const hci_words *w, const hci_again *a)
+{
+    char text[HCI_AGAIN_WORDS / MOST_PLAYED];
+    size_t said = 0, others = 0;
+    if (!a->solved.folder[0])
+        hci_words_say(w,
+                      " What was promised of currents was not judged: no solution for the machine of last "
+                      "time is known (%s).",
+                      a->solved.why);
+    for (size_t k = 0; k < a->runs && a->solved.folder[0]; ++k) {
+        const hci_again_run *r = &a->run[k];
+        const bool is_other = r->played.currents == HCI_PLAYED_OTHERS;
+        others += is_other;
+        if (said == MOST_PLAYED - 2 || (is_other && others > 1)) continue;
+        hci_played_words(&a->solved, &r->played, r->path, text, sizeof text);
+        hci_words_say(w, "%s", text);
+        ++said;
+    }
+    if (others > 1)
+        hci_words_say(w, " In %zu new recordings altogether the currents are not those that were solved.",
+                      others);
+}
+
 void hci_again_words(const hci_again *a, char *text, size_t size)
 {
     const hci_words w = {text, size};
@@ -59,6 +86,7 @@ void hci_again_words(const hci_again *a, char *text, size_t size)
     if (a->runs > 0) {
         say_prediction(&w, a);
         say_now(&w, a);
+        say_played(&w, a);
     }
     for (size_t k = 0; k < a->effects; ++k) {
         say_effect(&w, &a->effect[k]);

@@ -1,6 +1,20 @@
 #include "host/report/json_again.h"
 
-enum { WORDS_SIZE = 2048 };
+#include <math.h>
+
+static void put_played(hci_json *json, const hci_played *p)
+{
+    const bool is_known = p->currents != HCI_PLAYED_UNKNOWN;
+    hci_json_text(json, "currents", hci_played_currents_name(p->currents));
+    hci_json_number(json, "currents_rotation_rad", is_known ? p->rotation.rotation_rad : (double)NAN);
+    hci_json_number(json, "currents_rotation_error_rad", is_known ? p->rotation.error_rad : (double)NAN);
+    hci_json_number(json, "currents_gain", is_known ? p->rotation.gain : (double)NAN);
+    hci_json_number(json, "currents_left", is_known ? p->rotation.left : (double)NAN);
+    hci_json_number(json, "ripple_peak_to_peak_Nm", p->ripple_Nm);
+    hci_json_number(json, "ripple_error_Nm", p->ripple_error_Nm);
+    hci_json_number(json, "ripple_order", p->ripple_order);
+    hci_json_text(json, "promise", hci_promise_name(p->promise));
+}
 
 static void put_run(hci_json *json, const hci_again_run *r)
 {
@@ -15,6 +29,7 @@ static void put_run(hci_json *json, const hci_again_run *r)
     hci_json_bool(json, "kept", r->kept);
     hci_json_number(json, "rms_now_Nm", r->now_Nm);
     hci_json_number(json, "noise_Nm", r->noise_Nm);
+    put_played(json, &r->played);
     hci_json_close(json);
 }
 
@@ -32,7 +47,7 @@ static void put_effect(hci_json *json, const hci_again_effect *e)
 
 void hci_again_put(hci_json *json, const hci_again *a)
 {
-    char words[WORDS_SIZE];
+    char words[HCI_AGAIN_WORDS];
     hci_again_words(a, words, sizeof words);
     hci_json_object(json, "again");
     hci_json_text(json, "words", words);
@@ -44,6 +59,8 @@ void hci_again_put(hci_json *json, const hci_again *a)
     hci_json_number(json, "bound_Nm_95", a->bound_Nm);
     hci_json_number(json, "rms_now_Nm", a->now_Nm);
     hci_json_number(json, "noise_Nm", a->noise_Nm);
+    hci_json_text(json, "solution", a->solved.folder);
+    hci_json_number(json, "promised_peak_to_peak_Nm_95", a->solved.promised_Nm);
     hci_json_array(json, "new_runs");
     for (size_t k = 0; k < a->runs; ++k)
         put_run(json, &a->run[k]);

@@ -3,6 +3,7 @@
 #ifndef HCI_HOST_DIAGNOSE_AGAIN_H
 #define HCI_HOST_DIAGNOSE_AGAIN_H
 
+#include "hci/host/currents/played.h"
 #include "hci/host/diagnose/diagnose.h"
 
 #ifdef __cplusplus
@@ -19,9 +20,11 @@ typedef struct {
     double last_ripple_Nm; /* … and rms of what is beside the mean */
     double now_Nm;         /* by the machine that is fitted to all of them; a test if held out */
     double noise_Nm;       /* that noise alone would leave */
-    double bound_Nm; /* what was promised: what the recordings of last time left open, 95 %, and noise, as
-                      * large as it is by chance in so many samples; NAN: nothing was */
-    bool kept;       /* last_Nm is within the bound */
+    double bound_Nm;   /* what was promised: what the recordings of last time left open, 95 %, and noise, as
+                        * large as it is by chance in so many samples; NAN: nothing was */
+    bool kept;         /* last_Nm is within the bound: the machine's error, not the ripple of its currents */
+    const char *path;  /* of the file, from where the program runs; belongs to the runs */
+    hci_played played; /* its currents, against those that were solved for the machine of last time */
 } hci_again_run;
 
 /* What became of an effect. */
@@ -53,6 +56,7 @@ struct hci_again {
     hci_again_effect effect[HCI_MOST_FINDINGS];              /* in either machine, or ambiguous in one */
     size_t effects;                                          /* entries of effect */
     size_t recordings_before;                                /* of the last diagnosis */
+    hci_solved_currents solved; /* for the machine of last time, and what was promised of them */
 };
 
 /* What new recordings say of the last diagnosis. */
@@ -70,7 +74,11 @@ typedef struct {
 hci_status hci_again_find(const hci_again_question *question, hci_diagnosis *diagnosis, hci_again *again,
                           hci_note *note);
 
-/* In a few plain sentences. size: of text, 2048 will do. */
+/* Whether a new recording breaks what was promised of the currents, or plays them at another angle. */
+bool hci_again_is_bad(const hci_again *again);
+
+/* In a few plain sentences. size: of text, HCI_AGAIN_WORDS will do. */
+enum { HCI_AGAIN_WORDS = 8192 };
 void hci_again_words(const hci_again *again, char *text, size_t size);
 
 /* Frees what it holds and empties it. */

@@ -4,7 +4,7 @@
 #define HCI_HOST_REPORT_SUMMARY_H
 
 #include "hci/host/check/check.h"
-#include "hci/host/check/table_rotation.h"
+#include "hci/host/currents/table_rotation.h"
 #include "hci/host/diagnose/diagnose.h"
 #include "hci/host/drive/drive_facts.h"
 #include "hci/host/emit/emit.h"

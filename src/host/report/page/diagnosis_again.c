@@ -1,6 +1,9 @@
 /* The section of a diagnosis about the one before it: what it promised of the new recordings, and what these
  * contradict. */
+#include <math.h>
+
 #include "hci/host/diagnose/again.h"
+#include "hci/math/harmonic.h"
 #include "host/draw/html.h"
 #include "host/report/page/diagnosis_sections.h"
 
@@ -19,6 +22,30 @@ static void table_of_runs(hci_output *out, const hci_again *a)
         hci_html_cell(out, a->bounded == 0 ? "–" : r->kept ? "yes" : "no");
         hci_html_number(out, r->now_Nm);
         hci_html_number(out, r->noise_Nm);
+        hci_html_row_end(out);
+    }
+    hci_html_table_end(out);
+}
+
+static void table_of_played(hci_output *out, const hci_again *a)
+{
+    static const char *const COLUMN[] = {"<Recording",        "<Currents",  "Turned by °",
+                                         "Times the table",   "Ripple N·m", "±",
+                                         "Promised 95 % N·m", "<Promise",   NULL};
+    hci_html_table(out, "The currents that were solved: measured ripple, peak to peak, and what was promised",
+                   COLUMN);
+    for (size_t k = 0; k < a->runs; ++k) {
+        const hci_played *p = &a->run[k].played;
+        const bool is_known = p->currents != HCI_PLAYED_UNKNOWN;
+        hci_html_row(out);
+        hci_html_cell(out, a->run[k].file);
+        hci_html_cell(out, hci_played_currents_name(p->currents));
+        hci_html_number(out, is_known ? p->rotation.rotation_rad * 180.0 / HCI_PI : (double)NAN);
+        hci_html_number(out, is_known ? p->rotation.gain : (double)NAN);
+        hci_html_number(out, p->ripple_Nm);
+        hci_html_number(out, p->ripple_error_Nm);
+        hci_html_number(out, a->solved.promised_Nm);
+        hci_html_cell(out, hci_promise_name(p->promise));
         hci_html_row_end(out);
     }
     hci_html_table_end(out);
@@ -43,11 +70,12 @@ static void table_of_effects(hci_output *out, const hci_again *a)
 
 void hci_page_again(hci_output *out, const hci_again *a)
 {
-    char words[2048];
+    char words[HCI_AGAIN_WORDS];
     hci_again_words(a, words, sizeof words);
     hci_html_section(out, "What the new recordings say of the last diagnosis");
     hci_html_paragraph(out, NULL, words);
     if (a->runs > 0) table_of_runs(out, a);
+    if (a->runs > 0 && a->solved.folder[0]) table_of_played(out, a);
     if (a->effects > 0) table_of_effects(out, a);
     hci_html_section_end(out);
 }

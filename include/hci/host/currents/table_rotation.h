@@ -1,6 +1,6 @@
 /* Whether a drive reads a table at the angle that its log has. */
-#ifndef HCI_HOST_CHECK_TABLE_ROTATION_H
-#define HCI_HOST_CHECK_TABLE_ROTATION_H
+#ifndef HCI_HOST_CURRENTS_TABLE_ROTATION_H
+#define HCI_HOST_CURRENTS_TABLE_ROTATION_H
 
 #include "hci/host/currents/currents.h"
 #include "hci/host/recording/run.h"

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "hci/host/check/table_rotation.h"
+#include "hci/host/currents/table_rotation.h"
 #include "hci/machine/frames.h"
 #include "support/reference.h"
 #include "unity.h"

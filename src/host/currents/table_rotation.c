@@ -3,7 +3,7 @@
  * frame of the recorded angle, as a drive that commutates by itself plays them. The table is computed on a
  * fine grid, all shifts by whole steps of it are tried on some samples, and the best is refined by Newton's
  * method on all of them. */
-#include "hci/host/check/table_rotation.h"
+#include "hci/host/currents/table_rotation.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -1,0 +1,154 @@
+/* Whether a recording holds the currents of a solution and the ripple that was promised of them, from
+ * recordings that are made of them: turned, resized, without their harmonics; torques of known ripple. */
+#include "hci/host/currents/played.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "support/reference.h"
+#include "unity.h"
+
+enum { COUNT = 6000, PAIRS = 4 };
+
+static double theta[COUNT], current[3 * COUNT], torque[COUNT];
+static hci_wave wave[3];
+static hci_solved_currents solved;
+static hci_run run;
+
+void setUp(void)
+{
+    wave[0] = hci_wave_polar(1.0, 1, 8.0, 0.1);
+    wave[1] = hci_wave_polar(5.0, -1, 0.4, 0.7);
+    wave[2] = hci_wave_polar(7.0, 1, 0.3, -2.0);
+    memset(&solved, 0, sizeof solved);
+    memset(&run, 0, sizeof run);
+    strcpy(solved.folder, "currents");
+    strcpy(solved.machine, "machine");
+    solved.table = (hci_currents){.wave = wave, .count = 3};
+    solved.promised_Nm = 0.05;
+    run = (hci_run){.name = "log",
+                    .count = COUNT,
+                    .theta_m_rad = theta,
+                    .i_A = current,
+                    .torque_Nm = torque,
+                    .torque_source = HCI_TORQUE_MEASURED,
+                    .turn_known = true};
+}
+void tearDown(void)
+{
+}
+
+/* Six turns; a ripple of 2·amplitude at the sixth electrical order. */
+static void record(double ahead_rad, double gain, size_t waves, double amplitude_Nm, double noise_Nm)
+{
+    uint64_t seed = 5;
+    for (size_t k = 0; k < COUNT; ++k) {
+        theta[k] = 12.0 * REF_PI * (double)k / COUNT;
+        hci_waves_at(wave, waves, PAIRS * theta[k] + ahead_rad, current + 3 * k);
+        for (int s = 0; s < 3; ++s)
+            current[3 * k + (size_t)s] = gain * current[3 * k + (size_t)s] + 0.02 * ref_normal(&seed);
+        torque[k] = 1.5 + amplitude_Nm * sin(6.0 * PAIRS * theta[k] + 0.3) + noise_Nm * ref_normal(&seed);
+    }
+}
+
+static hci_played judge(void)
+{
+    hci_played p;
+    hci_note note = {{0}};
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_played_judge(&solved, &run, PAIRS, &p, &note), note.text);
+    return p;
+}
+
+static void says(const hci_played *p, const char *expected, bool wanted)
+{
+    char words[1024];
+    hci_played_words(&solved, p, "log.csv", words, sizeof words);
+    TEST_ASSERT_MESSAGE((strstr(words, expected) != NULL) == wanted, words);
+}
+
+static void test_ripples(void)
+{
+    static const struct {
+        double amplitude_Nm, noise_Nm;
+        hci_promise promise;
+    } CASE[] = {{0.01, 0.002, HCI_PROMISE_KEPT},
+                {0.04, 0.002, HCI_PROMISE_NOT_KEPT},
+                {0.01, 0.2, HCI_PROMISE_NOT_TOLD},
+                {0.0, 0.002, HCI_PROMISE_KEPT}};
+    for (size_t k = 0; k < sizeof CASE / sizeof CASE[0]; ++k) {
+        record(0.0, 1.0, 3, CASE[k].amplitude_Nm, CASE[k].noise_Nm);
+        const hci_played p = judge();
+        TEST_ASSERT_EQUAL_INT(HCI_PLAYED_AS_SOLVED, p.currents);
+        TEST_ASSERT_EQUAL_INT(CASE[k].promise, p.promise);
+        TEST_ASSERT_DOUBLE_WITHIN(3.0 * p.ripple_error_Nm, 2.0 * CASE[k].amplitude_Nm, p.ripple_Nm);
+        TEST_ASSERT_EQUAL_DOUBLE(60.0, p.ripple_order);
+        TEST_ASSERT_EQUAL_INT(CASE[k].promise == HCI_PROMISE_NOT_KEPT, hci_played_is_bad(&p));
+        says(&p, "the promise was kept", CASE[k].promise == HCI_PROMISE_KEPT);
+    }
+}
+
+/* However smooth the torque is: the promise is of other currents. */
+static void test_other_currents(void)
+{
+    static const struct {
+        double ahead_rad, gain;
+        size_t waves;
+        hci_played_currents currents;
+    } CASE[] = {{0.3, 1.0, 3, HCI_PLAYED_TURNED},    {-0.05, 1.0, 3, HCI_PLAYED_TURNED},
+                {REF_PI, 1.0, 3, HCI_PLAYED_TURNED}, {0.0, 0.8, 3, HCI_PLAYED_RESIZED},
+                {0.0, 1.2, 3, HCI_PLAYED_RESIZED},   {0.0, 1.0, 1, HCI_PLAYED_OTHERS},
+                {0.3, 1.0, 1, HCI_PLAYED_OTHERS},    {0.0, 0.0, 3, HCI_PLAYED_OTHERS},
+                {0.0, 1.0, 2, HCI_PLAYED_OTHERS}};
+    for (size_t k = 0; k < sizeof CASE / sizeof CASE[0]; ++k) {
+        record(CASE[k].ahead_rad, CASE[k].gain, CASE[k].waves, 0.01, 0.002);
+        const hci_played p = judge();
+        TEST_ASSERT_EQUAL_INT(CASE[k].currents, p.currents);
+        TEST_ASSERT_EQUAL_INT(HCI_PROMISE_NOT_JUDGED, p.promise);
+        TEST_ASSERT_EQUAL_INT(CASE[k].currents == HCI_PLAYED_TURNED, hci_played_is_bad(&p));
+        TEST_ASSERT_DOUBLE_WITHIN(3.0 * p.ripple_error_Nm, 0.02, p.ripple_Nm);
+        says(&p, "kept", false);
+        says(&p, "hci-solve check machine log.csv --table currents", true);
+    }
+}
+
+static void test_not_known(void)
+{
+    record(0.0, 1.0, 3, 0.01, 0.002);
+    solved.promised_Nm = (double)NAN;
+    hci_played p = judge();
+    TEST_ASSERT_EQUAL_INT(HCI_PROMISE_NOT_JUDGED, p.promise);
+    says(&p, "no bound on it was promised", true);
+    solved.promised_Nm = 0.05;
+    run.torque_source = HCI_TORQUE_HOLDING; /* the current is the reading */
+    p = judge();
+    TEST_ASSERT_TRUE(isnan(p.ripple_Nm));
+    TEST_ASSERT_EQUAL_INT(HCI_PROMISE_NOT_JUDGED, p.promise);
+    run.zero_is_unknown = true;
+    p = judge();
+    TEST_ASSERT_EQUAL_INT(HCI_PLAYED_UNKNOWN, p.currents);
+    says(&p, "for want of an angle with a known zero", true);
+    solved.folder[0] = '\0';
+    p = judge();
+    TEST_ASSERT_EQUAL_INT(HCI_PLAYED_UNKNOWN, p.currents);
+}
+
+/* Of less than half a turn no ripple is told; of electrical turns alone it is. */
+static void test_turns(void)
+{
+    record(0.0, 1.0, 3, 0.01, 0.002);
+    run.turn_known = false;
+    TEST_ASSERT_EQUAL_INT(HCI_PROMISE_KEPT, judge().promise);
+    run.turn_known = true;
+    run.count = COUNT / 15;
+    TEST_ASSERT_EQUAL_INT(HCI_PROMISE_NOT_JUDGED, judge().promise);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_ripples);
+    RUN_TEST(test_other_currents);
+    RUN_TEST(test_not_known);
+    RUN_TEST(test_turns);
+    return UNITY_END();
+}
