@@ -11,6 +11,7 @@
 extern "C" {
 #endif
 
+/* Bytes of a path. */
 enum { HCI_SOLVED_PATH_SIZE = 1024 };
 
 /* Currents that were solved for the machine of a diagnosis. Start with {0}. */
@@ -27,6 +28,8 @@ typedef struct {
  * for LAST/machine. That there are none is no error, and told in why. last: the --out of a diagnosis.
  * HCI_ERROR_MEMORY. */
 hci_status hci_solved_currents_find(const char *last, hci_solved_currents *solved, hci_note *note);
+
+/* Frees what it holds and empties it. */
 void hci_solved_currents_release(hci_solved_currents *solved);
 
 /* What flows in a recording, against what was solved. */
@@ -55,13 +58,13 @@ const char *hci_promise_name(hci_promise promise);
 
 /* One recording. */
 typedef struct {
-    hci_played_currents currents;
-    hci_table_rotation rotation; /* as of `check --table`; all 0 where not known */
+    hci_played_currents currents; /* what flows */
+    hci_table_rotation rotation;  /* as of `check --table`; all 0 where not known */
     double ripple_Nm;       /* measured, peak to peak, of the orders that stand out of the noise; NAN: not
                              * told */
     double ripple_error_Nm; /* standard error of the difference of two angles, of all orders looked at */
     double ripple_order;    /* electrical order up to which that was looked at */
-    hci_promise promise;
+    hci_promise promise;    /* what became of it */
 } hci_played;
 
 /* Judges one run. pole_pairs: of the machine. HCI_ERROR_MEMORY. */

@@ -77,8 +77,10 @@ hci_status hci_again_find(const hci_again_question *question, hci_diagnosis *dia
 /* Whether a new recording breaks what was promised of the currents, or plays them at another angle. */
 bool hci_again_is_bad(const hci_again *again);
 
-/* In a few plain sentences. size: of text, HCI_AGAIN_WORDS will do. */
+/* Bytes of the sentences. */
 enum { HCI_AGAIN_WORDS = 8192 };
+
+/* In a few plain sentences. size: of text, HCI_AGAIN_WORDS will do. */
 void hci_again_words(const hci_again *again, char *text, size_t size);
 
 /* Frees what it holds and empties it. */
