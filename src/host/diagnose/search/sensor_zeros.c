@@ -2,7 +2,12 @@
 
 #include <math.h>
 
+#include "host/diagnose/fit/current_sums.h"
+#include "host/diagnose/fit/model.h"
 #include "host/diagnose/search/belief.h"
+#include "host/diagnose/search/forward.h"
+
+#define CONTRADICTED 2.0 /* times what zeros differ by from one run to another */
 
 enum { PHASES = 3 };
 
@@ -79,5 +84,73 @@ hci_status hci_search_sensor_zeros(hci_search *s, hci_fitted_model *model, bool 
         status = hci_search_renew(s, model, note);
     }
     hci_fitted_model_release(&zeros);
+    return status;
+}
+
+/* ---- where they were read without a current ---- */
+
+/* Whether offsets leave more of the zeros that were read than these differ by. */
+static hci_status is_contradicted(const hci_search *s, const hci_candidates *model, bool *contradicted,
+                                  hci_note *note)
+{
+    hci_model written;
+    *contradicted = false;
+    const hci_status status = hci_model_make(s->regression->declared, model, false, &written, note);
+    if (status) return status;
+    *contradicted = hci_current_zeros_rms(s->regression, &written.list) > CONTRADICTED;
+    hci_model_release(&written);
+    return HCI_OK;
+}
+
+/* What a model leaves of the zeros that were read, on the average of the runs in use; 0: of no sensor. */
+static hci_status left_find(const hci_search *s, const hci_candidates *model, double left_A[PHASES],
+                            hci_note *note)
+{
+    hci_model written;
+    double runs[PHASES] = {0.0};
+    for (size_t k = 0; k < PHASES; ++k)
+        left_A[k] = 0.0;
+    const hci_status status = hci_model_make(s->regression->declared, model, false, &written, note);
+    if (status) return status;
+    for (const hci_segment *x = NULL; (x = hci_regression_next(s->regression, x)) != NULL;) {
+        const hci_current_zeros zeros = hci_current_zeros_left(s->regression, &written.list, x);
+        for (size_t k = 0; k < zeros.count; ++k, runs[zeros.phase[k - 1]] += 1.0)
+            left_A[zeros.phase[k]] += zeros.truth.i_abc[zeros.phase[k]];
+    }
+    hci_model_release(&written);
+    for (size_t k = 0; k < PHASES; ++k)
+        left_A[k] /= fmax(1.0, runs[k]);
+    return HCI_OK;
+}
+
+/* Offsets as they were read. */
+static hci_status as_read_set(const hci_search *s, hci_candidates *model, const hci_effect_type *type,
+                              hci_note *note)
+{
+    double left_A[PHASES];
+    const hci_status status = left_find(s, model, left_A, note);
+    for (size_t k = 0; k < model->count && !status; ++k) {
+        hci_candidate *x = &model->candidate[k];
+        for (size_t j = 0; j < x->count && x->in && x->type == type; ++j)
+            x->term[j].value += left_A[x->term[j].parameter];
+    }
+    return status;
+}
+
+hci_status hci_search_beside_zeros(hci_search *s, hci_fitted_model *model, bool *changed, hci_note *note)
+{
+    const hci_effect_type *type = type_of_zeros();
+    hci_fitted_model read = {0};
+    bool contradicted = false;
+    *changed = false;
+    if (!type || s->no_current || !hci_candidates_have(&model->candidates, type)) return HCI_OK;
+    hci_status status = is_contradicted(s, &model->candidates, &contradicted, note);
+    if (status || !contradicted) return status;
+    status = hci_fitted_model_copy(model, &read, note);
+    if (!status) status = zeros_enter(&read.candidates, type, note);
+    if (!status) status = as_read_set(s, &read.candidates, type, note);
+    if (!status) status = hci_search_forward(s, &read, changed, note);
+    if (*changed) hci_fitted_model_replace(model, &read);
+    hci_fitted_model_release(&read);
     return status;
 }

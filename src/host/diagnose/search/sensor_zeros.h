@@ -15,4 +15,11 @@
 hci_status hci_search_sensor_zeros(hci_search *search, hci_fitted_model *model, bool *changed,
                                    hci_note *note);
 
+/* Where runs without a current have shown the zeros, and the offsets of the model contradict them, they have
+ * taken the place of something else, such as cogging torque of order 1: adds what explains what is left with
+ * the zeros as they were read, if the model is then the better one. changed: out, whether it has been.
+ * HCI_ERROR_MEMORY. */
+hci_status hci_search_beside_zeros(hci_search *search, hci_fitted_model *model, bool *changed,
+                                   hci_note *note);
+
 #endif
