@@ -201,11 +201,17 @@ static void show_zero(const hci_check *c)
                  error = fmax(0.1, degrees(c->zero_error_rad));
     for (size_t k = 0; k < c->findings; ++k)
         if (strcmp(c->finding[k].slip, "run_angle_offset") == 0) return;
-    if (c->verdict != HCI_CHECK_SLIPS && fabs(off) > fmax(0.5, 2.0 * error))
+    if (c->verdict == HCI_CHECK_SLIPS || !(fabs(off) > fmax(0.5, 2.0 * error))) return;
+    if (c->zero_is_told)
         cli_say("  angle zero   %.1f \xC2\xB1 %.1f degrees electrical off in the recordings: --angle-offset "
                 "%.1f takes it "
                 "out\n",
                 off, error, -off);
+    else
+        cli_say("  angle zero   %.1f \xC2\xB1 %.1f degrees electrical off would explain the torques, and so "
+                "would a saliency with the saturation that it has: runs with i_d of both signs at two "
+                "currents, or voltages of the open machine, tell them apart\n",
+                off, error);
 }
 
 static void show(const hci_check *c, bool verbose)

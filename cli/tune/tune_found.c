@@ -190,7 +190,49 @@ static void fundamental_of(const hci_machine *m, double *sine, double *cosine)
             *sine += m->back_emf[k].sine, *cosine += m->back_emf[k].cosine;
 }
 
-/* A fundamental that is turned is no other back-EMF: the angle has another zero. */
+/* Whether phase currents were recorded, which a zero of the angle turns; i_d and i_q it does not. */
+static bool has_phases(const cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count; ++k)
+        if (t->runs.run[k].torque_Nm && (t->runs.run[k].has_sum || t->runs.run[k].computed_phase > 0))
+            return true;
+    return false;
+}
+
+/* Of check's zero, that is the same. */
+#define SAME_DEG 5.0
+
+/* Whether check finds the same zero, and no saliency in its place. */
+static bool is_told(const cli_tuning *t, double turn_deg, double error_deg)
+{
+    const double apart_deg = fabs(remainder(turn_deg - t->zero_deg, 360.0));
+    return has_phases(t) && t->zero_is_told &&
+           apart_deg < fmax(SAME_DEG, 3.0 * hypot(error_deg, t->zero_error_deg));
+}
+
+#define LEAST_ERROR_DEG 0.1
+
+/* A saliency that the model lacks turns the back-EMF as well. */
+static void say_open_turn(cli_tuning *t, double turn_deg, double error_deg)
+{
+    t->open_turn_deg = turn_deg;
+    t->open_turn_error_deg = fmax(LEAST_ERROR_DEG, error_deg);
+    t->turn_is_of_dq = !has_phases(t);
+    hci_tuning_say(
+        &t->tuning, HCI_TUNING_UNKNOWN,
+        "Where the electrical zero is: the whole back-EMF, order 1 with it, is found turned by "
+        "%.1f ± %.1f degrees (of the noise alone) against %s. A saliency, or one that saturates, "
+        "makes of the same currents nearly the same torques as another zero does%s. %s with i_d "
+        "of both signs at two currents, or voltages of the open machine, tell them apart.",
+        turn_deg, t->open_turn_error_deg, t->turn_is_of_dq ? "i_d and i_q" : "the angle of the logs",
+        t->turn_is_of_dq ? ", and --angle-offset turns the angle of the logs and not their i_d and "
+                           "i_q: if a zero is off, it is that of the drive"
+                         : "",
+        t->turn_is_of_dq ? "Phase currents" : "Runs");
+}
+
+/* A fundamental that is turned is no other back-EMF: the angle has another zero, if no saliency does as well.
+ */
 static void say_turned(cli_tuning *t, const hci_finding *f)
 {
     const hci_effect *e = effect_of(t, f);
@@ -204,15 +246,28 @@ static void say_turned(cli_tuning *t, const hci_finding *f)
     const double turn_deg = remainder(atan2(c, s) - declared_rad, 2.0 * HCI_PI) * 180.0 / HCI_PI;
     const double error_deg = e->term[cosine].std_error / hypot(s, c) * 180.0 / HCI_PI;
     if (!(fabs(turn_deg) > LEAST_TURN_DEG && fabs(turn_deg) > 3.0 * error_deg)) return;
+    t->turned_deg = 0.0;
+    if (!is_told(t, turn_deg, error_deg)) {
+        say_open_turn(t, turn_deg, error_deg);
+        return;
+    }
     t->turned_deg = turn_deg;
-    t->turned_error_deg = error_deg;
+    t->turned_error_deg = fmax(error_deg, fabs(remainder(turn_deg - t->zero_deg, 360.0)));
     hci_tuning_say(
         &t->tuning, HCI_TUNING_UNKNOWN,
         "Where the electrical zero is: the whole back-EMF, order 1 with it, is found turned by %.1f ± "
         "%.1f degrees against the angle of the logs. That is a zero of the angle that is off, and no "
         "other machine: --angle-offset %.1f takes it out (docs/tutorials/zero.md). What else is found "
         "under load may stand for it.",
-        turn_deg, error_deg, cli_tune_offset_to_give(t));
+        turn_deg, t->turned_error_deg, cli_tune_offset_to_give(t));
+}
+
+/* A model that explains the recordings at the angle as it is leaves no other zero to be asked for. */
+static void forget_turn(cli_tuning *t)
+{
+    for (size_t k = 0; k < t->diagnosis.effects.list.count; ++k)
+        if (t->diagnosis.effects.list.effect[k].type->is_angle_zero) return;
+    if (t->diagnosis.runs > 0 && t->diagnosis.verdict <= HCI_DIAGNOSIS_EXPLAINED) t->turned_deg = 0.0;
 }
 
 /* ---- cogging torque of a holding test, with what diagnose has added to it ---- */
@@ -491,6 +546,7 @@ void cli_tune_say_diagnosis(cli_tuning *t)
     say_words(t);
     for (size_t k = 0; k < d->findings; ++k)
         if (d->finding[k].verdict != HCI_FINDING_REJECTED) say_finding(t, &d->finding[k]);
+    forget_turn(t);
     for (size_t k = 0; k < d->findings; ++k)
         say_turned(t, &d->finding[k]);
     if (d->advice[0]) hci_tuning_say(&t->tuning, HCI_TUNING_NEXT, "%s", d->advice);

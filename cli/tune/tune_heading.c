@@ -235,6 +235,13 @@ static void append_of_gain(cli_tuning *t)
 
 static void append_of_zero(cli_tuning *t)
 {
+    if (fabs(t->open_turn_deg) > 0.0 && t->is_solved)
+        append(t,
+               "; the back-EMF is found turned by %.1f ± %.1f degrees%s, which a saliency with its "
+               "saturation may do as well as another zero: %s with i_d of both signs at two currents, or "
+               "voltages of the open machine, tell them apart",
+               t->open_turn_deg, t->open_turn_error_deg, t->turn_is_of_dq ? " against i_d and i_q" : "",
+               t->turn_is_of_dq ? "phase currents" : "runs");
     if (fabs(t->turned_deg) > 0.0 && t->is_solved)
         append(
             t,

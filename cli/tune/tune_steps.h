@@ -56,6 +56,12 @@ typedef struct {
     bool has_standstill;                 /* the angle changes in none of the recordings */
     double turned_deg, turned_error_deg; /* --angle-offset that the torques ask for, electrical, and its
                                           * standard error; 0: none */
+    double zero_deg,
+        zero_error_deg; /* so as check finds it by torques or voltages; NAN: they do not tell it */
+    bool zero_is_told;  /* and no saliency explains it as well */
+    double open_turn_deg, open_turn_error_deg; /* by which the back-EMF is found turned, and a saliency would
+                                                * do as well; 0: none */
+    bool turn_is_of_dq;    /* open_turn_deg: against i_d and i_q, and not phase currents */
     double once_a_turn_Nm; /* cogging torque of once a turn that a load on the shaft may make; 0: none */
     double
         jump_rad; /* electrical, by which the angle of a recording jumps and stands between; 0: none does */

@@ -7,6 +7,7 @@
 #include "host/check/own_findings.h"
 #include "host/check/relations.h"
 #include "host/check/run_zero.h"
+#include "host/check/zero_saliency.h"
 
 /* A relation is met up to so many standard deviations. */
 #define MET 2.5
@@ -265,6 +266,7 @@ static void conclude_zero(const check_posterior *p, hci_check *check)
     const check_run_zero zero = hci_check_run_zero(p->data, &declared);
     check->zero_rad = zero.is_known ? zero.zero_rad : (double)NAN;
     check->zero_error_rad = zero.is_known ? zero.std_error_rad : (double)NAN;
+    check->zero_is_told = zero.is_known && hci_check_zero_is_told(p->data, &declared, zero.zero_rad);
 }
 
 void hci_check_conclude(const check_posterior *p, hci_check *check)

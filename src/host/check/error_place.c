@@ -6,6 +6,7 @@
 
 #include "host/base/unit_lookup.h"
 #include "host/check/run_zero.h"
+#include "host/check/zero_saliency.h"
 
 /* Their texts are copied. */
 typedef char
@@ -134,6 +135,13 @@ static bool is_offset(const check_error *error)
     return error->field == offsetof(check_interpretation, run_zero_free);
 }
 
+/* Not one that a saliency explains as well. */
+static bool is_told(const check_data *data, const check_interpretation *as)
+{
+    const check_run_zero zero = hci_check_run_zero(data, as);
+    return zero.is_known && hci_check_zero_is_told(data, as, zero.zero_rad);
+}
+
 /* Poles are an even number; a motor with one pole pair has no electrical radians of its own; degrees show by
  * phases above 2π, and read as degrees all others would be near 0. */
 bool hci_check_error_applies(const check_error *error, const check_data *data)
@@ -145,7 +153,7 @@ bool hci_check_error_applies(const check_error *error, const check_data *data)
     if (error->where == CHECK_AT_POLES)
         return error->plus > 0.0 ? is_counted_otherwise(data) : fmod(p, 2.0) == 0.0;
     if (error->where == CHECK_AT_SPEED_SIGN) return may_be_unsigned(data);
-    if (is_offset(error)) return hci_check_run_zero(data, &declared).is_known;
+    if (is_offset(error)) return is_told(data, &declared);
     if (is_geared(error)) return gear_of(data) > 0.0;
     if (is_rotated(error)) return !hci_check_run_zero(data, &declared).is_known;
     if (error->where == CHECK_AT_PHASE)

@@ -77,13 +77,13 @@ typedef struct {
     size_t count;
 } torque_fit;
 
-static check_vector mutual_of(const check_run *r, const check_interpretation *as, const check_model *m)
+check_vector hci_check_mutual_of(const check_run *r, const check_interpretation *as, const check_model *m)
 {
     const check_vector i = hci_check_current_of(r, as, m), e = hci_check_emf_expected(1.0, m);
     return hci_check_scaled(hci_check_product(i, hci_check_conjugate(e)), 1.5);
 }
 
-static bool tells_torque(const check_data *data, const check_run *r)
+bool hci_check_tells_torque(const check_data *data, const check_run *r)
 {
     return r->has_abc && r->has_torque && r->theta && hci_check_has_vector_current(data, r);
 }
@@ -91,7 +91,7 @@ static bool tells_torque(const check_data *data, const check_run *r)
 static void torque_add(torque_fit *x, const check_run *r, const check_interpretation *as,
                        const check_model *m)
 {
-    const check_vector read = mutual_of(r, as, m), p = hci_check_turned(read, -x->from_rad);
+    const check_vector read = hci_check_mutual_of(r, as, m), p = hci_check_turned(read, -x->from_rad);
     const double speed = hci_check_or_zero(hci_check_speed_of(r, as, m)), way = (speed > 0.0) - (speed < 0.0);
     const double column[UNKNOWNS] = {p.re, p.im, -p.re * p.im / x->most, -way * x->most, x->most};
     const double y = r->torque_mean * as->torque, length = hci_check_length(p);
@@ -112,10 +112,10 @@ static torque_fit torque_fit_of(const check_data *data, const check_interpretati
                     .offset_unknown = data->torque_zero_is_told ? OFFSET_TOLD : OFFSET_UNKNOWN};
     const double k_Nm_per_A = 1.5 * hci_check_length(hci_check_emf_expected(1.0, m));
     for (size_t k = 0; k < data->runs; ++k)
-        if (tells_torque(data, &data->run[k]))
-            x.most = fmax(x.most, hci_check_length(mutual_of(&data->run[k], as, m)));
+        if (hci_check_tells_torque(data, &data->run[k]))
+            x.most = fmax(x.most, hci_check_length(hci_check_mutual_of(&data->run[k], as, m)));
     for (size_t k = 0; k < data->runs; ++k)
-        if (tells_torque(data, &data->run[k])) torque_add(&x, &data->run[k], as, m);
+        if (hci_check_tells_torque(data, &data->run[k])) torque_add(&x, &data->run[k], as, m);
     const bool is_known = !isnan(m->reluctance_Nm_per_A2);
     x.expected = is_known ? m->reluctance_Nm_per_A2 * x.most / (k_Nm_per_A * k_Nm_per_A) : 0.0;
     x.unknown = is_known ? RELUCTANCE_LEAST + RELUCTANCE_KNOWN * fabs(x.expected) : RELUCTANCE_UNKNOWN;

@@ -14,6 +14,13 @@ typedef struct {
 /* as->run_zero_rad does not count. O(recordings). */
 check_run_zero hci_check_run_zero(const check_data *data, const check_interpretation *as);
 
+/* Whether a recording has phase currents that turn with the angle, and their torque. */
+bool hci_check_tells_torque(const check_data *data, const check_run *r);
+
+/* 3/2 i e* in N·m of a back-EMF as declared: real is the torque of the magnets, imaginary what i_d adds to it
+ * where the zero of the angle is off. */
+check_vector hci_check_mutual_of(const check_run *r, const check_interpretation *as, const check_model *m);
+
 /* Takes it, where as->run_zero_free says so. */
 void hci_check_take_run_zero(const check_data *data, check_interpretation *as);
 

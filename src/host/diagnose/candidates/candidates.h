@@ -98,4 +98,7 @@ typedef struct {
     bool has_neutral;   /* of the machine */
 } hci_candidates_source;
 
+/* Whether all runs in use are tables of torques over i_d and i_q, which no sensor of an angle has read. */
+bool hci_candidates_lack_angle(const hci_run *runs, const bool *use, size_t count);
+
 #endif

@@ -265,10 +265,18 @@ static bool survey_residual(const hci_candidates_source *s, const hci_candidate_
     return true;
 }
 
+bool hci_candidates_lack_angle(const hci_run *runs, const bool *use, size_t count)
+{
+    for (size_t k = 0; k < count; ++k)
+        if (use[k] && !runs[k].only_mean) return false;
+    return true;
+}
+
 static bool is_looked_for(const hci_candidates_source *s, size_t r, double current_A)
 {
     const hci_effect_type *type = hci_effect_type_at(r);
     return type->propose && !(s->denied && s->denied[r]) && !(type->in_series && s->richness > 0) &&
+           !(type->is_angle_zero && hci_candidates_lack_angle(s->runs, s->use, s->samples->run_count)) &&
            (!s->magnetic_only || is_magnetic(s, type, current_A));
 }
 

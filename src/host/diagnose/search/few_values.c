@@ -144,7 +144,9 @@ hci_status hci_search_angle_zero(hci_search *s, hci_fitted_model *model, bool *c
 {
     hci_status status = HCI_OK;
     *changed = false;
+    const hci_regression *e = s->regression;
     if (turned_by_rad(s, &model->candidates) == 0.0 || s->no_current ||
+        hci_candidates_lack_angle(e->runs, e->use, e->samples->run_count) ||
         hci_candidates_have(&model->candidates, angle_zero()))
         return HCI_OK;
     for (int stays = 0; stays < 2 && !*changed && !status; ++stays)
