@@ -7,7 +7,6 @@
 #include "host/check/own_findings.h"
 #include "host/check/relations.h"
 #include "host/check/run_zero.h"
-#include "host/check/zero_saliency.h"
 
 /* A relation is met up to so many standard deviations. */
 #define MET 2.5

@@ -6,7 +6,6 @@
 
 #include "host/base/unit_lookup.h"
 #include "host/check/run_zero.h"
-#include "host/check/zero_saliency.h"
 
 /* Their texts are copied. */
 typedef char

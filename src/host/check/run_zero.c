@@ -77,13 +77,13 @@ typedef struct {
     size_t count;
 } torque_fit;
 
-check_vector hci_check_mutual_of(const check_run *r, const check_interpretation *as, const check_model *m)
+static check_vector mutual_of(const check_run *r, const check_interpretation *as, const check_model *m)
 {
     const check_vector i = hci_check_current_of(r, as, m), e = hci_check_emf_expected(1.0, m);
     return hci_check_scaled(hci_check_product(i, hci_check_conjugate(e)), 1.5);
 }
 
-bool hci_check_tells_torque(const check_data *data, const check_run *r)
+static bool tells_torque(const check_data *data, const check_run *r)
 {
     return r->has_abc && r->has_torque && r->theta && hci_check_has_vector_current(data, r);
 }
@@ -91,7 +91,7 @@ bool hci_check_tells_torque(const check_data *data, const check_run *r)
 static void torque_add(torque_fit *x, const check_run *r, const check_interpretation *as,
                        const check_model *m)
 {
-    const check_vector read = hci_check_mutual_of(r, as, m), p = hci_check_turned(read, -x->from_rad);
+    const check_vector read = mutual_of(r, as, m), p = hci_check_turned(read, -x->from_rad);
     const double speed = hci_check_or_zero(hci_check_speed_of(r, as, m)), way = (speed > 0.0) - (speed < 0.0);
     const double column[UNKNOWNS] = {p.re, p.im, -p.re * p.im / x->most, -way * x->most, x->most};
     const double y = r->torque_mean * as->torque, length = hci_check_length(p);
@@ -112,10 +112,10 @@ static torque_fit torque_fit_of(const check_data *data, const check_interpretati
                     .offset_unknown = data->torque_zero_is_told ? OFFSET_TOLD : OFFSET_UNKNOWN};
     const double k_Nm_per_A = 1.5 * hci_check_length(hci_check_emf_expected(1.0, m));
     for (size_t k = 0; k < data->runs; ++k)
-        if (hci_check_tells_torque(data, &data->run[k]))
-            x.most = fmax(x.most, hci_check_length(hci_check_mutual_of(&data->run[k], as, m)));
+        if (tells_torque(data, &data->run[k]))
+            x.most = fmax(x.most, hci_check_length(mutual_of(&data->run[k], as, m)));
     for (size_t k = 0; k < data->runs; ++k)
-        if (hci_check_tells_torque(data, &data->run[k])) torque_add(&x, &data->run[k], as, m);
+        if (tells_torque(data, &data->run[k])) torque_add(&x, &data->run[k], as, m);
     const bool is_known = !isnan(m->reluctance_Nm_per_A2);
     x.expected = is_known ? m->reluctance_Nm_per_A2 * x.most / (k_Nm_per_A * k_Nm_per_A) : 0.0;
     x.unknown = is_known ? RELUCTANCE_LEAST + RELUCTANCE_KNOWN * fabs(x.expected) : RELUCTANCE_UNKNOWN;
@@ -172,6 +172,100 @@ static check_run_zero by_torque(const check_data *data, const check_interpretati
     return zero;
 }
 
+/* ---- whether a saliency does as well */
+
+/* Standard deviations of what may stand beside the declared torque of the magnets, of the largest. A saliency
+ * of twice the magnets' torque is that of a motor with weak magnets, and few have an L_d above L_q;
+ * saturation takes a tenth of their flux, and half of a saliency as large as they. */
+#define MAGNETS_UNKNOWN    0.1
+#define SALIENCY_UNKNOWN   2.0
+#define SALIENCY_ABOVE     0.3
+#define SAGGING_FLUX       0.1
+#define SAGGING_RELUCTANCE 0.5
+
+/* Twice the standard error: by so much of χ² a zero has to explain more. */
+#define TOLD 4.0
+
+enum { FREE_MAGNETS, FREE_RELUCTANCE, FREE_FRICTION, FREE_OFFSET, FLUX_SAGS, RELUCTANCE_SAGS, FREE_UNKNOWNS };
+
+/* Normal equations of the torques at one zero, in the measure of their standard deviations. */
+typedef struct {
+    double zero_rad, most_Nm; /* most_Nm: the largest 3/2 |i e| */
+    double gram[FREE_UNKNOWNS * FREE_UNKNOWNS], moment[FREE_UNKNOWNS], square;
+} saliency_fit;
+
+static void add_run(saliency_fit *x, const check_run *r, const check_interpretation *as, const check_model *m)
+{
+    const check_vector p = hci_check_turned(mutual_of(r, as, m), -x->zero_rad);
+    const double speed = hci_check_or_zero(hci_check_speed_of(r, as, m)), way = (speed > 0.0) - (speed < 0.0);
+    const double length = hci_check_length(p), q = p.re / x->most_Nm, d = -p.im / x->most_Nm;
+    const double column[FREE_UNKNOWNS] = {q, d * q, -way, 1.0, q * q * q, d * q * q * q};
+    if (!(length > 0.0)) return;
+    const double scale = x->most_Nm / (TORQUE_UNKNOWN * length), y = r->torque_mean * as->torque / x->most_Nm;
+    x->square += scale * scale * y * y;
+    for (int k = 0; k < FREE_UNKNOWNS; ++k) {
+        x->moment[k] += scale * scale * column[k] * y;
+        for (int j = 0; j < FREE_UNKNOWNS; ++j)
+            x->gram[k + j * FREE_UNKNOWNS] += scale * scale * column[k] * column[j];
+    }
+}
+
+static void expect(saliency_fit *x, int k, double value, double unknown)
+{
+    const double precision = 1.0 / (unknown * unknown);
+    x->gram[k + k * FREE_UNKNOWNS] += precision;
+    x->moment[k] += precision * value;
+    x->square += precision * value * value;
+}
+
+/* The torques of all recordings, and what is expected but of the reluctance. */
+static saliency_fit fit_of(const check_data *data, const check_interpretation *as, const check_model *m,
+                           double zero_rad)
+{
+    saliency_fit x = {.zero_rad = zero_rad};
+    for (size_t k = 0; k < data->runs; ++k)
+        if (tells_torque(data, &data->run[k]))
+            x.most_Nm = fmax(x.most_Nm, hci_check_length(mutual_of(&data->run[k], as, m)));
+    for (size_t k = 0; k < data->runs; ++k)
+        if (tells_torque(data, &data->run[k])) add_run(&x, &data->run[k], as, m);
+    expect(&x, FREE_MAGNETS, 1.0, MAGNETS_UNKNOWN);
+    expect(&x, FREE_FRICTION, 0.0, FRICTION_UNKNOWN);
+    expect(&x, FREE_OFFSET, 0.0, data->torque_zero_is_told ? OFFSET_TOLD : OFFSET_UNKNOWN);
+    expect(&x, FLUX_SAGS, 0.0, SAGGING_FLUX);
+    expect(&x, RELUCTANCE_SAGS, 0.0, SAGGING_RELUCTANCE);
+    return x;
+}
+
+/* χ² of what is left, infinite where it is not told; reluctance: out. */
+static double left_of(saliency_fit x, double expected, double unknown, double *reluctance)
+{
+    double moment[FREE_UNKNOWNS];
+    expect(&x, FREE_RELUCTANCE, expected, unknown);
+    for (int k = 0; k < FREE_UNKNOWNS; ++k)
+        moment[k] = x.moment[k];
+    *reluctance = expected;
+    if (!(x.most_Nm > 0.0) || hci_cholesky_factor(FREE_UNKNOWNS, x.gram)) return HUGE_VAL;
+    hci_cholesky_solve(FREE_UNKNOWNS, x.gram, x.moment);
+    for (int k = 0; k < FREE_UNKNOWNS; ++k)
+        x.square -= moment[k] * x.moment[k];
+    *reluctance = x.moment[FREE_RELUCTANCE];
+    return x.square;
+}
+
+/* At a zero, with the saliency that does best there. */
+static double left_at(const check_data *data, const check_interpretation *as, const check_model *m,
+                      double zero_rad)
+{
+    const saliency_fit x = fit_of(data, as, m, zero_rad);
+    const double k_Nm_per_A = 1.5 * hci_check_length(hci_check_emf_expected(1.0, m));
+    const double declared =
+        hci_check_or_zero(m->reluctance_Nm_per_A2) * x.most_Nm / (k_Nm_per_A * k_Nm_per_A);
+    double reluctance;
+    const double left = left_of(x, declared, SALIENCY_UNKNOWN, &reluctance);
+    return reluctance > fmax(0.0, declared) ? left_of(x, fmax(0.0, declared), SALIENCY_ABOVE, &reluctance)
+                                            : left;
+}
+
 check_run_zero hci_check_run_zero(const check_data *data, const check_interpretation *as)
 {
     check_interpretation at_zero = *as;
@@ -184,4 +278,17 @@ check_run_zero hci_check_run_zero(const check_data *data, const check_interpreta
 void hci_check_take_run_zero(const check_data *data, check_interpretation *as)
 {
     if (as->run_zero_free > 0.0) as->run_zero_rad = hci_check_run_zero(data, as).zero_rad;
+}
+
+bool hci_check_zero_is_told(const check_data *data, const check_interpretation *as, double zero_rad)
+{
+    check_interpretation at_zero = *as;
+    at_zero.run_zero_rad = 0.0;
+    const check_model m = hci_check_model_of(data, &at_zero);
+    for (size_t k = 0; k < data->runs; ++k)
+        if (data->run[k].has_phase_voltage && data->run[k].theta &&
+            hci_check_has_emf(data, &data->run[k], &m))
+            return true;
+    const double as_it_is = left_at(data, &at_zero, &m, 0.0);
+    return isfinite(as_it_is) && as_it_is - left_at(data, &at_zero, &m, zero_rad) > TOLD;
 }

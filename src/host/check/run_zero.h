@@ -14,12 +14,9 @@ typedef struct {
 /* as->run_zero_rad does not count. O(recordings). */
 check_run_zero hci_check_run_zero(const check_data *data, const check_interpretation *as);
 
-/* Whether a recording has phase currents that turn with the angle, and their torque. */
-bool hci_check_tells_torque(const check_data *data, const check_run *r);
-
-/* 3/2 i e* in N·m of a back-EMF as declared: real is the torque of the magnets, imaginary what i_d adds to it
- * where the zero of the angle is off. */
-check_vector hci_check_mutual_of(const check_run *r, const check_interpretation *as, const check_model *m);
+/* Whether the recordings have voltages whose back-EMF tells the zero, or torques that at the angle as it is
+ * no saliency, saturating or not, explains nearly as well as the zero at zero_rad does. O(recordings). */
+bool hci_check_zero_is_told(const check_data *data, const check_interpretation *as, double zero_rad);
 
 /* Takes it, where as->run_zero_free says so. */
 void hci_check_take_run_zero(const check_data *data, check_interpretation *as);
