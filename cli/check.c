@@ -194,14 +194,14 @@ static void show_counts(const hci_check *c)
     cli_say(" (--verbose lists them)\n");
 }
 
-/* Half a degree and twice its error: less is none. */
+/* Half a degree and its error: less is none; and 5 of what a saliency explains as well. */
 static void show_zero(const hci_check *c)
 {
     const double off = -degrees(remainder(c->zero_rad, 2.0 * HCI_PI)),
-                 error = fmax(0.1, degrees(c->zero_error_rad));
+                 error = fmax(0.1, degrees(c->zero_reach_rad));
     for (size_t k = 0; k < c->findings; ++k)
         if (strcmp(c->finding[k].slip, "run_angle_offset") == 0) return;
-    if (c->verdict == HCI_CHECK_SLIPS || !(fabs(off) > fmax(0.5, 2.0 * error))) return;
+    if (c->verdict == HCI_CHECK_SLIPS || !(fabs(off) > fmax(c->zero_is_told ? 0.5 : 5.0, error))) return;
     if (c->zero_is_told)
         cli_say("  angle zero   %.1f \xC2\xB1 %.1f degrees electrical off in the recordings: --angle-offset "
                 "%.1f takes it "

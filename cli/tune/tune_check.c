@@ -283,16 +283,15 @@ static void judge_torque_way(cli_tuning *t)
 }
 
 /* A zero that the torques show, and not so plainly that it is certain; diagnose may find it again. */
-#define SHOWN_DEG   5.0
-#define SHOWN_ERROR 2.0
+#define SHOWN_DEG 5.0
 
 static void judge_zero(cli_tuning *t, const hci_check *c)
 {
-    const double zero_deg = c->zero_rad * 180.0 / HCI_PI, error_deg = c->zero_error_rad * 180.0 / HCI_PI;
+    const double zero_deg = c->zero_rad * 180.0 / HCI_PI, error_deg = c->zero_reach_rad * 180.0 / HCI_PI;
     t->zero_deg = zero_deg;
     t->zero_error_deg = error_deg;
     t->zero_is_told = c->zero_is_told;
-    if (!(c->zero_is_told && fabs(zero_deg) > SHOWN_DEG && fabs(zero_deg) > SHOWN_ERROR * error_deg)) return;
+    if (!(c->zero_is_told && fabs(zero_deg) > SHOWN_DEG && fabs(zero_deg) > error_deg)) return;
     t->turned_deg = zero_deg;
     t->turned_error_deg = error_deg;
 }

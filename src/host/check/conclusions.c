@@ -265,6 +265,7 @@ static void conclude_zero(const check_posterior *p, hci_check *check)
     const check_run_zero zero = hci_check_run_zero(p->data, &declared);
     check->zero_rad = zero.is_known ? zero.zero_rad : (double)NAN;
     check->zero_error_rad = zero.is_known ? zero.std_error_rad : (double)NAN;
+    check->zero_reach_rad = zero.is_known ? hci_check_zero_error(p->data, &declared, zero) : (double)NAN;
     check->zero_is_told = zero.is_known && hci_check_zero_is_told(p->data, &declared, zero.zero_rad);
 }
 

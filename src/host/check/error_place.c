@@ -253,11 +253,11 @@ static void say_offset(const check_data *data, const check_interpretation *as, h
 {
     const check_run_zero zero = hci_check_run_zero(data, as);
     const double degrees = -remainder(zero.zero_rad, 2.0 * HCI_PI) * 180.0 / HCI_PI;
-    const double error = fmax(0.1, zero.std_error_rad * 180.0 / HCI_PI);
+    const double error = fmax(0.1, hci_check_zero_error(data, as, zero) * 180.0 / HCI_PI);
     snprintf(finding->words, sizeof finding->words,
              "the electrical zero of the angle in the recordings is %.1f \xC2\xB1 %.1f degrees off: give "
              "--angle-offset %.1f%s",
-             degrees, error, -degrees, other_phases(degrees, error));
+             degrees, error, -degrees, other_phases(degrees, zero.std_error_rad * 180.0 / HCI_PI));
     snprintf(finding->should_be, sizeof finding->should_be, "the electrical angle %s %.1f degrees",
              degrees > 0.0 ? "-" : "+", fabs(degrees));
 }

@@ -186,6 +186,9 @@ static check_run_zero by_torque(const check_data *data, const check_interpretati
 /* Twice the standard error: by so much of χ² a zero has to explain more. */
 #define TOLD 4.0
 
+/* A quarter of a turn, by degrees. */
+#define MOST_STEPS 90
+
 enum { FREE_MAGNETS, FREE_RELUCTANCE, FREE_FRICTION, FREE_OFFSET, FLUX_SAGS, RELUCTANCE_SAGS, FREE_UNKNOWNS };
 
 /* Normal equations of the torques at one zero, in the measure of their standard deviations. */
@@ -280,15 +283,42 @@ void hci_check_take_run_zero(const check_data *data, check_interpretation *as)
     if (as->run_zero_free > 0.0) as->run_zero_rad = hci_check_run_zero(data, as).zero_rad;
 }
 
+static bool has_voltage(const check_data *data, const check_model *m)
+{
+    for (size_t k = 0; k < data->runs; ++k)
+        if (data->run[k].has_phase_voltage && data->run[k].theta && hci_check_has_emf(data, &data->run[k], m))
+            return true;
+    return false;
+}
+
+/* How far from a zero χ² stays within 1 of what it is there, in steps of a degree one way. */
+static double reach(const check_data *data, const check_interpretation *as, const check_model *m,
+                    double zero_rad, double step_rad)
+{
+    const double least = left_at(data, as, m, zero_rad);
+    int steps = 0;
+    while (steps < MOST_STEPS && left_at(data, as, m, zero_rad + (steps + 1) * step_rad) < least + 1.0)
+        ++steps;
+    return steps * fabs(step_rad);
+}
+
+double hci_check_zero_error(const check_data *data, const check_interpretation *as, check_run_zero zero)
+{
+    check_interpretation at_zero = *as;
+    at_zero.run_zero_rad = 0.0;
+    const check_model m = hci_check_model_of(data, &at_zero);
+    const double step_rad = HCI_PI / 180.0;
+    if (!zero.is_known || has_voltage(data, &m)) return zero.std_error_rad;
+    return fmax(zero.std_error_rad, fmax(reach(data, &at_zero, &m, zero.zero_rad, step_rad),
+                                         reach(data, &at_zero, &m, zero.zero_rad, -step_rad)));
+}
+
 bool hci_check_zero_is_told(const check_data *data, const check_interpretation *as, double zero_rad)
 {
     check_interpretation at_zero = *as;
     at_zero.run_zero_rad = 0.0;
     const check_model m = hci_check_model_of(data, &at_zero);
-    for (size_t k = 0; k < data->runs; ++k)
-        if (data->run[k].has_phase_voltage && data->run[k].theta &&
-            hci_check_has_emf(data, &data->run[k], &m))
-            return true;
+    if (has_voltage(data, &m)) return true;
     const double as_it_is = left_at(data, &at_zero, &m, 0.0);
     return isfinite(as_it_is) && as_it_is - left_at(data, &at_zero, &m, zero_rad) > TOLD;
 }

@@ -18,6 +18,9 @@ check_run_zero hci_check_run_zero(const check_data *data, const check_interpreta
  * no saliency, saturating or not, explains nearly as well as the zero at zero_rad does. O(recordings). */
 bool hci_check_zero_is_told(const check_data *data, const check_interpretation *as, double zero_rad);
 
+/* Standard error in rad of a zero, with what a saliency beside it leaves open. O(recordings). */
+double hci_check_zero_error(const check_data *data, const check_interpretation *as, check_run_zero zero);
+
 /* Takes it, where as->run_zero_free says so. */
 void hci_check_take_run_zero(const check_data *data, check_interpretation *as);
 

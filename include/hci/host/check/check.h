@@ -96,6 +96,7 @@ typedef struct {
     double probability_as_declared;                     /* that nothing is read wrongly */
     double zero_rad, zero_error_rad; /* electrical, to be added to the angle of the recordings so that its
                                       * zero is that of the tables; NAN: they do not tell it */
+    double zero_reach_rad; /* zero_error_rad with what a saliency beside it leaves open, as it is said */
     bool zero_is_told; /* and no saliency, known or not, explains the torques as well at the zero as it is */
     hci_check_evidence evidence[HCI_CHECK_MOST_EVIDENCE]; /* relations that could be checked */
     size_t evidences;                                     /* entries of evidence in use */
