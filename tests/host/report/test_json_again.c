@@ -21,9 +21,16 @@ void setUp(void)
     memset(&a, 0, sizeof a);
     for (size_t k = 0; k < RUNS; ++k) {
         const double x = 10.0 * (double)(k + 1);
-        run[k] = (hci_again_run){
-            file[k], k ? HCI_ROLE_HOLDOUT : HCI_ROLE_FIT, x + 1.0, x + 2.0, -x - 3.0, x + 4.0, x + 5.0,
-            x + 6.0, k ? (double)NAN : x + 7.0,           k == 0};
+        run[k] = (hci_again_run){.file = file[k],
+                                 .role = k ? HCI_ROLE_HOLDOUT : HCI_ROLE_FIT,
+                                 .declared_Nm = x + 1.0,
+                                 .last_Nm = x + 2.0,
+                                 .last_mean_Nm = -x - 3.0,
+                                 .last_ripple_Nm = x + 4.0,
+                                 .now_Nm = x + 5.0,
+                                 .noise_Nm = x + 6.0,
+                                 .bound_Nm = k ? (double)NAN : x + 7.0,
+                                 .kept = k == 0};
     }
     a.run = run;
     a.runs = RUNS;
