@@ -127,7 +127,7 @@ check "currents of a model that explains nothing are green" grep -q 'Reached in 
 # ---- an order that is off by less than the cut of the table makes is as wanted; a limit that binds is the reason where it is not
 
 mkdir magnets
-printf 'name,value,unit\npole_pairs,5,1\n' >magnets/machine.csv
+printf 'name,value,unit\npole_pairs,5,1\ninductance_d,0.5,mH\ninductance_q,0.5,mH\n' >magnets/machine.csv # so that i_d is used
 printf 'order,amplitude_Nm_per_A,phase_rad\n1,0.533,0\n5,0.0067,2.8\n7,0.0025,-1.1\n11,0.0016,-1.1\n' >magnets/back_emf.csv
 printf 'order,amplitude_Nm,phase_rad\n2.4,0.02,0.7\n12,0.045,0.3\n' >magnets/cogging.csv
 printf 'effect,parameter,value,unit\nreluctance,qq_sine_6,2.4e-6,H\nreluctance,qq_sine_12,2e-6,H\nreluctance,dq_sine_12,-5.2e-6,H\n' >magnets/effects.csv
