@@ -1,5 +1,4 @@
 #include "host/diagnose/held_out.h"
-#include "host/diagnose/candidates/empirical_term.h"
 
 #include <math.h>
 

@@ -73,25 +73,31 @@ static const hci_effect_type *angle_zero(void)
     return type;
 }
 
-/* The fundamental of the declared back-EMF, N·m/A. */
-static double declared_fundamental(const hci_machine *machine)
+/* Sine and cosine of the fundamental of the declared back-EMF, N·m/A. */
+static void declared_fundamental(const hci_machine *machine, double wave[2])
 {
-    for (size_t k = 0; k < machine->back_emf_count; ++k)
-        if (fabs(machine->back_emf[k].order - 1.0) < HCI_ORDER_TOLERANCE) return machine->back_emf[k].sine;
-    return 0.0;
+    wave[0] = wave[1] = 0.0;
+    for (size_t k = 0; k < machine->back_emf_count; ++k) {
+        if (fabs(machine->back_emf[k].order - 1.0) >= HCI_ORDER_TOLERANCE) continue;
+        wave[0] += machine->back_emf[k].sine;
+        wave[1] += machine->back_emf[k].cosine;
+    }
 }
 
-/* The angle by which a model turns the fundamental of the back-EMF; 0 where it leaves its phase. */
+/* The angle by which a model turns the fundamental of the declared back-EMF; 0 where it leaves its phase. */
 static double turned_by_rad(const hci_search *s, const hci_candidates *model)
 {
-    double wave[2] = {declared_fundamental(s->regression->machine), 0.0};
+    double declared[2];
+    declared_fundamental(s->regression->machine, declared);
+    double wave[2] = {declared[0], declared[1]};
     for (size_t k = 0; k < model->count; ++k) {
         const hci_candidate *x = &model->candidate[k];
         for (size_t j = 0; x->in && is_of_magnets(x->type) && !x->type->any_phase && j < x->count; ++j)
             if (fabs(x->term[j].order - 1.0) < HCI_ORDER_TOLERANCE && x->term[j].parameter < 2)
                 wave[x->term[j].parameter] += x->term[j].value;
     }
-    return atan2(-wave[1], wave[0]);
+    return atan2(wave[0] * declared[1] - wave[1] * declared[0],
+                 wave[0] * declared[0] + wave[1] * declared[1]);
 }
 
 /* The model with a zero of the angle in place of a back-EMF that differs, and of a cogging torque unless it
@@ -143,8 +149,8 @@ static hci_status turned_try(hci_search *s, hci_fitted_model *model, bool coggin
 hci_status hci_search_angle_zero(hci_search *s, hci_fitted_model *model, bool *changed, hci_note *note)
 {
     hci_status status = HCI_OK;
-    *changed = false;
     const hci_regression *e = s->regression;
+    *changed = false;
     if (turned_by_rad(s, &model->candidates) == 0.0 || s->no_current ||
         hci_candidates_lack_angle(e->runs, e->use, e->samples->run_count) ||
         hci_candidates_have(&model->candidates, angle_zero()))

@@ -114,8 +114,10 @@ static hci_status left_find(const hci_search *s, const hci_candidates *model, do
     if (status) return status;
     for (const hci_segment *x = NULL; (x = hci_regression_next(s->regression, x)) != NULL;) {
         const hci_current_zeros zeros = hci_current_zeros_left(s->regression, &written.list, x);
-        for (size_t k = 0; k < zeros.count; ++k, runs[zeros.phase[k - 1]] += 1.0)
+        for (size_t k = 0; k < zeros.count; ++k) {
             left_A[zeros.phase[k]] += zeros.truth.i_abc[zeros.phase[k]];
+            runs[zeros.phase[k]] += 1.0;
+        }
     }
     hci_model_release(&written);
     for (size_t k = 0; k < PHASES; ++k)
