@@ -7,6 +7,8 @@
 
 #define SAME         0.02  /* change of an error, as a share, that is none */
 #define NEAR_NOISE   1.5   /* times the noise: an error below it is not looked at in parts */
+#define UNLOADED     0.05  /* of the largest mean torque, below which a run has none */
+#define RIGHT        0.1   /* of what loaded runs leave of their means, below which others are right */
 #define GOES         0.9   /* correlation of what is left of means with the torque, which is no zero */
 #define OF_MEANS     0.5   /* of the mean square of an error, that is of the means of the runs */
 #define PLAIN        100.0 /* ΔBIC of an effect that is not taken, and said all the same */
@@ -131,13 +133,30 @@ static bool goes_with_torque(const hci_diagnosis *d)
     return n >= LEAST_MEANS && across * across > GOES * GOES * (n * xx - x * x) * (n * yy - y * y);
 }
 
+/* Whether runs without a torque have their mean right, and those with one have not. */
+static bool is_right_unloaded(const hci_diagnosis *d)
+{
+    double most = 0.0, idle = 0.0, idles = 0.0, loaded = 0.0, loads = 0.0;
+    for (size_t k = 0; k < d->runs; ++k)
+        most = fmax(most, fabs(d->run[k].mean_torque_Nm));
+    for (size_t k = 0; k < d->runs; ++k) {
+        const double left = d->run[k].error_mean_after_Nm;
+        const bool is_idle = fabs(d->run[k].mean_torque_Nm) < UNLOADED * most;
+        *(is_idle ? &idle : &loaded) += left * left;
+        *(is_idle ? &idles : &loads) += 1.0;
+    }
+    return idles > 0.0 && loads >= LEAST_MEANS && idle * loads < RIGHT * RIGHT * loaded * idles;
+}
+
 /* What may make the mean of each run another one. */
 static const char *means_words(const hci_diagnosis *d)
 {
     if (goes_with_torque(d))
         return ". What is left of them grows with the torque, as where a current, the torque or the magnets "
-               "are "
-               "scaled otherwise from run to run.";
+               "are scaled otherwise from run to run.";
+    if (is_right_unloaded(d))
+        return ". Without a torque the means are right, so no zero is another one each time; it may be the "
+               "scale of a current or of the torque, or magnets whose temperature was not recorded.";
     return has_sensor(d) ? ", as where the zero of a sensor is another one each time."
                          : ", as where a load or the friction is another one each time.";
 }
@@ -151,15 +170,16 @@ static void say_disbelieved(const hci_words *w, const hci_diagnosis *d)
     if (d->disbelieved_share < BELIEVABLE)
         hci_words_say(w, " (it would leave %.2g of the declared torque per ampere of i_q)",
                       d->disbelieved_share);
-    hci_words_say(
-        w, d->disbelieved_share >= BELIEVABLE && is_of_means(d) && !has_sensor(d)
-               ? ", so it was left out: most of what the declared machine leaves is the mean of each run, as "
-                 "where a load or the friction is another one from run to run."
-           : d->disbelieved_share >= BELIEVABLE && is_of_means(d)
-               ? ", so it was left out: most of what the declared machine leaves is the mean of each run, as "
-                 "where the zero of the torque sensor or the friction is another one from run to run."
-               : ", so it was left out: see with `check` whether signs, units, angle and motor are those of "
-                 "the machine folder.");
+    if (d->disbelieved_share >= BELIEVABLE && is_of_means(d))
+        hci_words_say(
+            w, ", so it was left out: most of what the declared machine leaves is the mean of each run%s",
+            is_right_unloaded(d) ? "."
+            : has_sensor(d)      ? ", as where the zero of the torque sensor or the friction is another one "
+                                   "from run to run."
+                                 : ", as where a load or the friction is another one from run to run.");
+    else
+        hci_words_say(w, ", so it was left out: see with `check` whether signs, units, angle and motor are "
+                         "those of the machine folder.");
 }
 
 /* ---- what is decisive and was not taken ---- */

@@ -168,6 +168,27 @@ static void test_what_makes_the_means_differ(void)
     TEST_ASSERT_FALSE(says("zero of"));
 }
 
+/* Runs without a torque whose means are right have the zeros that the others have. */
+static void test_means_that_are_right_without_a_torque(void)
+{
+    static const double LEFT_NM[] = {1e-4, -1e-4, 0.03, -0.005, 0.002, -0.04};
+    hci_run_errors run[6];
+    d.run = run;
+    d.runs = 6;
+    for (int k = 0; k < 6; ++k)
+        run[k] = (hci_run_errors){.source = HCI_TORQUE_MEASURED,
+                                  .rms_before_Nm = 0.1,
+                                  .mean_torque_Nm = k < 2   ? 1e-3
+                                                    : k % 2 ? -1.0
+                                                            : 1.0,
+                                  .error_mean_after_Nm = LEFT_NM[k]};
+    TEST_ASSERT_TRUE(says("magnets whose temperature was not recorded"));
+    TEST_ASSERT_FALSE(says("zero of a sensor is another one"));
+    run[0].error_mean_after_Nm = 0.02;
+    TEST_ASSERT_FALSE(says("magnets whose temperature"));
+    TEST_ASSERT_TRUE(says("zero of a sensor is another one"));
+}
+
 static void test_a_limit_with_nothing_left(void)
 {
     d.verdict = HCI_DIAGNOSIS_EXPLAINED;
@@ -238,6 +259,7 @@ int main(void)
     RUN_TEST(test_what_is_decisive_and_not_taken);
     RUN_TEST(test_zeros_that_differ_are_no_units);
     RUN_TEST(test_what_makes_the_means_differ);
+    RUN_TEST(test_means_that_are_right_without_a_torque);
     RUN_TEST(test_a_limit_with_nothing_left);
     RUN_TEST(test_noise_as_large_as_the_torque);
     RUN_TEST(test_the_recording_that_disagrees);

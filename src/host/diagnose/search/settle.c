@@ -439,6 +439,52 @@ static hci_status means_judge(hci_search *s, hci_attribution *a, bool *unpredict
     return status || *unpredicted ? status : means_leave(s, a, note);
 }
 
+/* The score of a model whose iron does not saturate, nor has anything unknown, and in which the mean of each
+ * run is another one. */
+static hci_status score_of_means(hci_search *s, const hci_fitted_model *model, double *score, hci_note *note)
+{
+    hci_fitted_model plain = {0};
+    hci_status status = hci_fitted_model_copy(model, &plain, note);
+    for (size_t r = 0; r < hci_candidate_types() && !status; ++r)
+        if (hci_candidate_type(r)->beyond_quadratic || hci_candidate_type(r) == &hci_empirical_type)
+            hci_candidates_remove_type(&plain.candidates, hci_candidate_type(r));
+    s->regression->free_means = true;
+    if (!status) status = hci_search_fit(s, &plain, note);
+    s->regression->free_means = false;
+    *score =
+        plain.fit.score + (double)hci_regression_runs_in_use(s->regression) * log(fmax(2.0, model->fit.rows));
+    hci_fitted_model_release(&plain);
+    return status;
+}
+
+/* Iron that saturates, beside what is no noise, is a part of that where it is wrong by more than a fifth in
+ * runs left out, and a mean of each run that is another one, whatever makes it, describes the recordings
+ * better: so do magnets whose temperature nobody wrote down. */
+static hci_status are_means_better(hci_search *s, const hci_attribution *a, bool *better, hci_note *note)
+{
+    const hci_fitted_model *model = &a->model;
+    double share = 0.0, score = INFINITY;
+    bool all = false;
+    *better = false;
+    if (!hci_search_saturates(&model->candidates)) return HCI_OK;
+    hci_status status = HCI_OK;
+    if (!a->unknown) status = hci_search_is_noise(s, &model->candidates, &all, note);
+    if (!status && !all) status = hci_search_unpredicted(s, &model->candidates, &share, note);
+    if (!status && share > UNPREDICTED) status = score_of_means(s, model, &score, note);
+    *better = !status && score + HCI_DECISIVE < model->fit.score;
+    return status;
+}
+
+static hci_status means_ask(hci_search *s, hci_attribution *a, hci_note *note)
+{
+    bool better = false;
+    hci_status status = a->means_open ? HCI_OK : are_means_better(s, a, &better, note);
+    if (status || !better) return status;
+    s->whole_coenergy = false;
+    status = means_leave(s, a, note);
+    return status ? status : hci_search_renew(s, &a->model, note);
+}
+
 /* Judging finds the noise anew, and scores are comparable with the same noise only. */
 hci_status hci_search_settle(hci_search *s, hci_attribution *a, hci_note *note)
 {
@@ -446,5 +492,6 @@ hci_status hci_search_settle(hci_search *s, hci_attribution *a, hci_note *note)
     hci_status status = means_judge(s, a, &unpredicted, note);
     if (!status && !a->means_open) status = hci_search_keep_brakes(s, &a->model, note);
     if (!status && !a->means_open) status = settle(s, unpredicted, a, note);
-    return status ? status : hci_search_renew(s, &a->model, note);
+    if (!status) status = hci_search_renew(s, &a->model, note);
+    return status ? status : means_ask(s, a, note);
 }

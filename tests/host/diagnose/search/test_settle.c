@@ -118,6 +118,37 @@ static void test_means_that_no_law_predicts(void)
     hci_attribution_release(&a);
 }
 
+/* Runs of another torque per ampere each, as of magnets whose temperature nobody wrote down. */
+static void record_heat(void)
+{
+    static const double KELVIN[] = {0.0, 10.0, 75.0, 15.0, 5.0, 60.0, 46.0, 30.0};
+    static const double IQ_A[] = {0.0, 0.0, 9.0, 4.0, 5.0, -9.0, 5.0, 7.0};
+    for (size_t r = 0; r < 8; ++r)
+        record(450, &(point){60.0 + 30.0 * (double)r, IQ_A[r], 0.0,
+                             1.5 * K_NM_PER_A * IQ_A[r] * 0.0011 * KELVIN[r], 0.0});
+}
+
+/* Powers of the currents describe them nearly, of those left out too; a mean of each run describes them all.
+ */
+static void test_a_scale_of_each_run_is_no_saturation(void)
+{
+    hci_attribution a = {.types = 0};
+    record_heat();
+    search_start();
+    search.whole_coenergy = true;
+    model.candidates.reference_current_A = 9.0;
+    model_add("saturation", "d1q2_cosine", NULL, 0.0);
+    model_add("saturation", "d1q3_cosine", NULL, 0.0);
+    model_fit();
+    a.model = model;
+    memset(&model, 0, sizeof model);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_settle(&search, &a, &note));
+    TEST_ASSERT_EQUAL_UINT64(0, hci_candidates_types_in(&a.model.candidates));
+    TEST_ASSERT_TRUE(a.unknown && a.means_open);
+    TEST_ASSERT_FALSE(search.whole_coenergy);
+    hci_attribution_release(&a);
+}
+
 /* Too few samples for a spectrum: noise is noise, and a wave that is slow beside them is none. */
 static void test_few_samples(void)
 {
@@ -141,6 +172,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_short_noise_is_noise);
     RUN_TEST(test_bursts_are_no_noise);
+    RUN_TEST(test_a_scale_of_each_run_is_no_saturation);
     RUN_TEST(test_few_samples);
     RUN_TEST(test_what_a_filter_leaves_is_no_noise);
     RUN_TEST(test_means_of_noise_are_known);
