@@ -6,7 +6,9 @@
 #include "host/diagnose/search/forward.h"
 #include "host/diagnose/search/stability.h"
 
-#define NEARER 0.7 /* share of what it is behind that a step may leave */
+#define NEARER 0.7  /* share of what it is behind that a step may leave */
+#define ALIKE  3.0  /* standard errors by which delays differ that are one … */
+#define SAME   0.01 /* … or a share of their sum */
 
 enum { MOST_STEPS = 3 };
 
@@ -158,4 +160,64 @@ hci_status hci_search_angle_zero(hci_search *s, hci_fitted_model *model, bool *c
     for (int stays = 0; stays < 2 && !*changed && !status; ++stays)
         status = turned_try(s, model, stays, changed, note);
     return status;
+}
+
+/* ---- one late channel in place of two early ones ---- */
+
+/* How much later than all other channels that of the torque is read, where these are early by the same time.
+ * 0: they are not, or are not all in. */
+static double later_s(const hci_candidates *model, const hci_effect_type *type)
+{
+    double sum = 0.0, least = INFINITY, most = -INFINITY, error = 0.0, count = 0.0;
+    for (size_t k = 0; k < model->count; ++k)
+        for (size_t j = 0; model->candidate[k].in && j < model->candidate[k].count; ++j) {
+            const hci_effect_term *term = &model->candidate[k].term[j];
+            if (model->candidate[k].type != type) continue;
+            if (term->parameter == type->late[0]) return 0.0;
+            sum += term->value;
+            least = fmin(least, term->value);
+            most = fmax(most, term->value);
+            error = fmax(error, term->std_error);
+            count += 1.0;
+        }
+    if (count + 1.0 < (double)type->parameter_count) return 0.0;
+    return most - least < fmax(ALIKE * error, SAME * fabs(sum)) ? -sum / count : 0.0;
+}
+
+static double price_of(const hci_candidates *model, const hci_effect_type *type)
+{
+    double price = 0.0;
+    for (size_t k = 0; k < model->count; ++k)
+        if (model->candidate[k].in && model->candidate[k].type == type) price += model->candidate[k].price;
+    return price;
+}
+
+/* The model with that channel alone late. It was chosen as those in whose place it comes. */
+static hci_status late_make(hci_search *s, const hci_fitted_model *model, const hci_effect_type *type,
+                            double delay_s, hci_fitted_model *late, hci_note *note)
+{
+    hci_candidate x = {.type = type, .count = 1, .in = true};
+    x.term[0] = (hci_effect_term){type->late[0], 0.0, delay_s, NAN};
+    x.price = price_of(&model->candidates, type);
+    hci_status status = hci_fitted_model_copy(model, late, note);
+    hci_candidates_remove_type(&late->candidates, type);
+    if (!status) status = hci_candidates_add(&late->candidates, &x, note);
+    return status ? status : hci_search_fit(s, late, note);
+}
+
+hci_status hci_search_late_channel(hci_search *s, hci_fitted_model *model, bool *changed, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    *changed = false;
+    for (size_t r = 0; r < hci_candidate_types() && !*changed && !status; ++r) {
+        const hci_effect_type *type = hci_candidate_type(r);
+        hci_fitted_model late = {0};
+        const double delay_s = type->late ? later_s(&model->candidates, type) : 0.0;
+        if (delay_s == 0.0) continue;
+        status = late_make(s, model, type, delay_s, &late, note);
+        *changed = !status && late.fit.score < model->fit.score;
+        if (*changed) hci_fitted_model_replace(model, &late);
+        hci_fitted_model_release(&late);
+    }
+    return status || !*changed ? status : hci_search_renew(s, model, note);
 }

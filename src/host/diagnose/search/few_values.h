@@ -17,4 +17,10 @@ hci_status hci_search_few_values(hci_search *search, hci_fitted_model *model, bo
  * changed: out. Also where the search is over: a single fit then. HCI_ERROR_MEMORY. */
 hci_status hci_search_angle_zero(hci_search *search, hci_fitted_model *model, bool *changed, hci_note *note);
 
+/* Of the delays of the channels only differences show. Where all but that of the torque are early by the same
+ * time, within three standard errors, it is late by that, which is one value. changed: out. O(samples·terms).
+ * HCI_ERROR_MEMORY. */
+hci_status hci_search_late_channel(hci_search *search, hci_fitted_model *model, bool *changed,
+                                   hci_note *note);
+
 #endif

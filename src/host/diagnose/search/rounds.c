@@ -34,6 +34,7 @@ static hci_status round_run(hci_search *s, hci_fitted_model *model, bool *again,
     if (!status && !*again && !hci_search_is_over(s)) status = hci_search_few_values(s, model, again, note);
     if (!status && !*again && !hci_search_is_over(s)) status = hci_search_sensor_zeros(s, model, again, note);
     if (!status && !*again && !hci_search_is_over(s)) status = hci_search_beside_zeros(s, model, again, note);
+    if (!status && !*again) status = hci_search_late_channel(s, model, again, note);
     return status;
 }
 

@@ -173,9 +173,61 @@ static void test_nothing_is_turned_where_the_angle_is_right(void)
     TEST_ASSERT_FALSE(model_has("position_offset"));
 }
 
+/* ---- late channels ---- */
+
+#define LATE_S 2e-4 /* 0.6 rad of the sixth order at the highest speed */
+
+/* The torque, or the angle, is read late: both look the same but for the currents. */
+static void record_late(double torque_s, double angle_s)
+{
+    files_write(files_path("cogging.csv"), "order,amplitude_Nm,phase_rad\n6,0.05,0\n");
+    hci_machine_release(&machine);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_machine_read(files_root, &machine, &note), note.text);
+    for (int k = 0; k < POINTS; ++k) {
+        record(SAMPLES, &(point){SPEED[k], 0.0, 0.0, 0.0, 0.0});
+        for (size_t j = 0; j < SAMPLES; ++j) {
+            const double now = P * (run[k].theta_m_rad[j] + SPEED[k] * angle_s);
+            rec_phases(D_A[k], Q_A[k], now, run[k].i_A + 3 * j);
+            run[k].torque_Nm[j] +=
+                1.5 * K_NM_PER_A * Q_A[k] + WAVES_NM * sin(6.0 * (now - P * SPEED[k] * torque_s));
+        }
+    }
+    search_start();
+    model_add("channel_delay", "current", NULL, 0.0);
+    model_add("channel_delay", "angle", NULL, 0.0);
+    model_fit();
+}
+
+static bool one_is_late(void)
+{
+    bool changed = false;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_late_channel(&search, &model, &changed, &note));
+    return changed;
+}
+
+static void test_all_others_early_is_one_late(void)
+{
+    record_late(LATE_S, 0.0);
+    TEST_ASSERT_TRUE(one_is_late());
+    TEST_ASSERT_EQUAL_UINT64(1, hci_candidates_terms_in(&model.candidates));
+    const hci_effect_term *late = term_in(&model.candidates, "channel_delay", "torque", 0.0);
+    TEST_ASSERT_DOUBLE_WITHIN(4.0 * late->std_error, LATE_S, late->value);
+    TEST_ASSERT_TRUE(late->std_error < 0.1 * LATE_S);
+    TEST_ASSERT_FALSE(one_is_late());
+}
+
+static void test_a_late_angle_stays(void)
+{
+    record_late(0.0, LATE_S);
+    TEST_ASSERT_FALSE(one_is_late());
+    TEST_ASSERT_EQUAL_UINT64(2, hci_candidates_terms_in(&model.candidates));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_all_others_early_is_one_late);
+    RUN_TEST(test_a_late_angle_stays);
     RUN_TEST(test_a_pair_of_no_more_values_competes);
     RUN_TEST(test_a_series_gives_way_to_few_values);
     RUN_TEST(test_few_values_stay);
