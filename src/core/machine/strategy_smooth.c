@@ -238,7 +238,7 @@ hci_status hci_strategy_smooth_current(const hci_smooth_torque *torque, const hc
                                        double x[2])
 {
     const double e = hypot(mutual->e[0], mutual->e[1]);
-    double quadric[2], i_d = 0.0;
+    double quadric[2], i_d;
     hci_status status =
         hci_strategy_current(mutual, strategy == HCI_STRATEGY_ID0 ? HCI_STRATEGY_ID0 : HCI_STRATEGY_MTPA,
                              torque_Nm, NULL, quadric, NULL);

@@ -68,9 +68,10 @@ static bool valid_orders(const double *orders, size_t count)
     return true;
 }
 
+/* order_count: one or more. */
 static accumulator start(const double *orders, size_t order_count, double *work)
 {
-    const size_t columns = 2 * order_count - (order_count > 0 && is_mean(orders[0]) ? 1 : 0);
+    const size_t columns = 2 * order_count - (is_mean(orders[0]) ? 1 : 0);
     const accumulator fit = {columns, work, work + columns * (columns + 1)};
     for (size_t i = 0; i < columns * (columns + 1); i++)
         work[i] = 0.0;

@@ -71,6 +71,8 @@ static void test_integral_control_alone_does_not_wind_up(void)
 {
     const hci_pi pi = {0.0, 10.0};
     double integral = 0.0;
+    for (int k = 0; k < 10; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-14, 10.0 * 0.5 * 0.01 * k, hci_pi_step(&pi, &integral, 0.5, 3.0, 0.01));
     for (int k = 0; k < 1000; ++k)
         hci_pi_step(&pi, &integral, 1.0, 3.0, 0.01);
     TEST_ASSERT_DOUBLE_WITHIN(0.2, 3.0, integral);
@@ -422,6 +424,16 @@ static void test_legs_switch_at_the_edges_of_the_band(void)
     TEST_ASSERT_EQUAL_UINT64(3, h.switchings);
 }
 
+static void test_legs_rest_at_the_very_edges(void)
+{
+    const hci_hysteresis hysteresis = {0.25, 0};
+    hci_hysteresis_state h = {0};
+    const double none[3] = {0.0, 0.0, 0.0}, edge[3] = {-0.125, 0.125, -0.125}, below[3] = {-0.2, -0.2, 0.0};
+    TEST_ASSERT_EQUAL_UINT(0, hci_hysteresis_step(&hysteresis, &h, none, edge));
+    TEST_ASSERT_EQUAL_UINT(1 + 2, hci_hysteresis_step(&hysteresis, &h, none, below));
+    TEST_ASSERT_EQUAL_UINT(1 + 2, hci_hysteresis_step(&hysteresis, &h, none, edge));
+}
+
 typedef struct {
     double worst_A;
     int least_steps; /* between two switchings of a leg */
@@ -491,6 +503,34 @@ static void references(hci_dqx x[100])
         hci_waves_at(lists.emf, PM_INTERIOR.emf_count, 2.0 * 0.031 * k, e);
         hci_plane_to_abc(state.control.reference, abc);
         x[k] = hci_dqx_from_abc(hci_dqx_frame_of(e), abc);
+    }
+}
+
+/* T·per_Nm(θ) + fixed(θ), each with as many harmonics, or one of them alone. */
+static void test_reference_of_waves(void)
+{
+    const hci_wave per_Nm = hci_wave_polar(1.0, 1, 0.7, 0.2), fixed = hci_wave_polar(5.0, -1, 0.3, -0.4);
+    use_machine(&PM_SINE, 64);
+    const int p = drive.plant.table.pole_pairs;
+    for (int which = 1; which < 4; ++which) {
+        source = (hci_current_source){.strategy = HCI_STRATEGY_MTPA,
+                                      .per_Nm = &per_Nm,
+                                      .per_Nm_count = which & 1 ? 1 : 0,
+                                      .fixed = &fixed,
+                                      .fixed_count = which & 2 ? 1 : 0};
+        memset(&state, 0, sizeof state);
+        for (int k = 0; k < 20; ++k) {
+            const hci_measurement m = {{0.0, 0.0, 0.0}, 0.3 * k, 0.0};
+            double abc[3];
+            hci_control_step(&drive.control, &state.control, &m, 4.0);
+            hci_plane_to_abc(state.control.reference, abc);
+            for (int s = 0; s < 3; ++s) {
+                const double x = p * 0.3 * k - 2.0 * REF_PI * s / 3.0;
+                const double expected = (which & 1 ? 4.0 * 0.7 * sin(x + 0.2) : 0.0) +
+                                        (which & 2 ? 0.3 * sin(5.0 * x - 0.4) : 0.0);
+                TEST_ASSERT_DOUBLE_WITHIN(1e-12, expected, abc[s]);
+            }
+        }
     }
 }
 
@@ -741,7 +781,9 @@ int main(void)
     RUN_TEST(test_current_loop_does_not_wind_up);
     RUN_TEST(test_hold_follows_from_the_frequency);
     RUN_TEST(test_legs_switch_at_the_edges_of_the_band);
+    RUN_TEST(test_legs_rest_at_the_very_edges);
     RUN_TEST(test_hysteresis_keeps_the_band);
+    RUN_TEST(test_reference_of_waves);
     RUN_TEST(test_current_limits);
     RUN_TEST(test_torque_command_is_limited);
     RUN_TEST(test_strategies_change_in_time);

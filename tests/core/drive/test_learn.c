@@ -392,6 +392,20 @@ static void test_no_blob(void)
     TEST_ASSERT_EQUAL_MEMORY(&before, &learn, sizeof learn);
 }
 
+/* As many orders as there may be. */
+static void test_blob_of_the_most_orders(void)
+{
+    static unsigned char room[HCI_LEARN_HEAD + 1100 * HCI_LEARN_ORDER];
+    static uint16_t order[HCI_LEARN_MOST_ORDERS];
+    static hci_learn_sums many[HCI_LEARN_MOST_ORDERS + 1];
+    for (uint16_t k = 0; k < HCI_LEARN_MOST_ORDERS; ++k)
+        order[k] = (uint16_t)(k + 1);
+    hci_learn_start(&learn, order, HCI_LEARN_MOST_ORDERS, many, 4096);
+    const uint32_t size = hci_learn_write(&learn, &FACTS, room, sizeof room);
+    TEST_ASSERT_EQUAL_UINT32(hci_learn_bytes(HCI_LEARN_MOST_ORDERS), size);
+    TEST_ASSERT_EQUAL(HCI_BLOB_GOOD, hci_learn_check(room, size, NULL));
+}
+
 static void test_every_damage_is_refused(void)
 {
     const uint32_t size = write_blob();
@@ -458,6 +472,7 @@ int main(void)
     RUN_TEST(test_table_of_a_part);
     RUN_TEST(test_blob_restores_what_was_learnt);
     RUN_TEST(test_no_blob);
+    RUN_TEST(test_blob_of_the_most_orders);
     RUN_TEST(test_every_damage_is_refused);
     RUN_TEST(test_power_cut_at_every_byte);
     return UNITY_END();

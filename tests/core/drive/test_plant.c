@@ -157,7 +157,7 @@ static void test_table_refuses_each_alone(void)
 {
     const hci_inductance odd = {.order = 0.3}, last_odd[2] = {{.order = 2.0}, {.order = 0.3}};
     const hci_wave waves[3] = {{1.0, 1, 0.5, 0.0}, {0.3, 1, 0.1, 0.0}, {1.0, 1, 0.5, 0.0}};
-    const hci_harmonic below = {-2.0, 0.1, 0.0};
+    const hci_harmonic below = {-2.0, 0.1, 0.0}, last_half[2] = {{6.0, 0.1, 0.0}, {0.5, 0.1, 0.0}};
     const hci_plant_inductance negative = {NULL, 0, -0.02, -0.01}, given = {NULL, 0, 0.02, 0.01};
     const hci_plant_inductance other = {&odd, 1, 0.02, 0.01}, last = {last_odd, 2, 0.02, 0.01};
     hci_machine machine = {.pole_pairs = 2, .back_emf = waves, .back_emf_count = 1};
@@ -179,6 +179,9 @@ static void test_table_refuses_each_alone(void)
     machine.cogging = &below;
     machine.cogging_count = 1;
     TEST_ASSERT_EQUAL_INT(0, hci_plant_table_turns(&machine, &given));
+    machine.cogging = last_half; /* whole over both pole pairs, not over one */
+    machine.cogging_count = 2;
+    TEST_ASSERT_EQUAL_INT(2, hci_plant_table_turns(&machine, &given));
     machine.cogging_count = 0;
     machine.pole_pairs = 0;
     TEST_ASSERT_EQUAL_INT(0, hci_plant_table_turns(&machine, &given));

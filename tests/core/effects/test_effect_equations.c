@@ -649,6 +649,25 @@ static void test_readings_and_back(void)
     }
 }
 
+/* The currents by themselves, where the angle changes none: it stays as it was read. */
+static void test_currents_and_back(void)
+{
+    uint64_t seed = 8;
+    el_list l = {0};
+    el_add(&l, "current_offset", "a", 0.0, 0.2);
+    el_add(&l, "current_gain", "b", 0.0, 0.03);
+    el_add(&l, "position_eccentricity", "mech_sine", 1.0, 0.02);
+    for (int j = 0; j < DRAWS; ++j) {
+        const hci_sample truth = el_sample(&seed), reading = hci_effects_sense(&l.list, P, &truth);
+        const hci_sample back = hci_effects_undo_currents(&l.list, P, &reading);
+        TEST_ASSERT_EQUAL_DOUBLE(reading.theta_m_rad, back.theta_m_rad);
+        for (int s = 0; s < 3; ++s) {
+            TEST_ASSERT_DOUBLE_WITHIN(1e-13, truth.i_abc[s], back.i_abc[s]);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-11, truth.change_A_per_s[s], back.change_A_per_s[s]);
+        }
+    }
+}
+
 /* By the i_q of the true angle, and back; also where i_d makes that angle move the current. */
 static void test_angle_turns_with_the_load(void)
 {
@@ -1156,6 +1175,7 @@ int main(void)
     RUN_TEST(test_regressors_of_linear_types);
     RUN_TEST(test_readings_of_a_true_state);
     RUN_TEST(test_readings_and_back);
+    RUN_TEST(test_currents_and_back);
     RUN_TEST(test_delay_of_a_harmonic);
     RUN_TEST(test_delay_of_many_periods);
     RUN_TEST(test_prediction_of_a_reading);

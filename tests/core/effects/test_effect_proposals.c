@@ -92,6 +92,7 @@ static void test_what_recordings_ask_for(void)
     TEST_ASSERT_EQUAL_UINT64(5, count);
     TEST_ASSERT_EQUAL_DOUBLE(1.0 / 3.0, taken[0].order);
     TEST_ASSERT_EQUAL_DOUBLE(2.0 / 3.0, taken[1].order);
+    TEST_ASSERT_TRUE(taken[0].count == 2 && taken[1].count == 2); /* sine and cosine */
     TEST_ASSERT_TRUE(taken[2].expected > 0.0 && taken[2].expected < 0.4 && taken[3].expected > 0.0);
     TEST_ASSERT_EQUAL_DOUBLE(0.0, taken[4].expected); /* any inertia */
 }
@@ -100,10 +101,10 @@ static void test_what_recordings_ask_for(void)
  * named whatever stands out. */
 static void test_an_encoder_between_its_lines(void)
 {
-    const double angle_order[4] = {8.0, 2.0, 1.0 / 3.0, 16.0 / 3.0};
+    const double angle_order[5] = {8.0, 2.0, 1.0 / 3.0, 2.0 / 3.0, 16.0 / 3.0};
     const hci_machine machine = {.pole_pairs = 3};
     const hci_effect_survey survey = {
-        .machine = &machine, .orders = 90.0, .angle_order = angle_order, .angle_orders = 4};
+        .machine = &machine, .orders = 90.0, .angle_order = angle_order, .angle_orders = 5};
     hci_effect_type_find("position_harmonics")->propose(&survey, &TO);
     TEST_ASSERT_EQUAL_UINT64(5, count);
     TEST_ASSERT_EQUAL_DOUBLE(8.0, taken[3].order);
@@ -498,6 +499,20 @@ static void test_friction_that_fades(void)
     TEST_ASSERT_EQUAL_UINT64(0, count);
 }
 
+/* Of a shaft that turns one way only the zero of the sensor and the Coulomb friction are one and the same. */
+static void test_friction_that_fades_seen_from_one_side(void)
+{
+    hci_effect_speed_mean mean[MEANS];
+    hci_effect_survey s = recordings();
+    for (int k = 0; k < MEANS; ++k) {
+        const double w = pow(100.0, k / 11.0);
+        mean[k] = (hci_effect_speed_mean){w, -0.05 * exp(-w * w / 64.0), 1e8};
+    }
+    s.of_speed = mean;
+    s.of_speeds = MEANS;
+    proposes("stribeck_friction", &s, 1, (named[]){{"excess", 2, 0.0, 16.0, 0.0}});
+}
+
 /* ---- motors of one make ---- */
 
 static void alike(const char *type, named x)
@@ -607,6 +622,7 @@ int main(void)
     RUN_TEST(test_series_of_the_coenergy);
     RUN_TEST(test_ends_of_the_series);
     RUN_TEST(test_friction_that_fades);
+    RUN_TEST(test_friction_that_fades_seen_from_one_side);
     RUN_TEST(test_the_speed_at_which_friction_fades);
     RUN_TEST(test_even_orders_of_a_back_emf);
     RUN_TEST(test_a_back_emf_is_expected_in_proportion);

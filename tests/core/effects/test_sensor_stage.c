@@ -70,13 +70,15 @@ static void check_many(const hci_sensor_stage stage[HCI_EFFECT_SENSORS])
 
 static void test_many_stages_are_each_alone(void)
 {
-    hci_sensor_stage lag[HCI_EFFECT_SENSORS], resonance[HCI_EFFECT_SENSORS];
+    hci_sensor_stage lag[HCI_EFFECT_SENSORS], resonance[HCI_EFFECT_SENSORS], slow[HCI_EFFECT_SENSORS];
     for (int j = 0; j < HCI_EFFECT_SENSORS; ++j) {
         lag[j] = (hci_sensor_stage){0.0, 0.0, 1e-4 * (j + 1)};
         resonance[j] = (hci_sensor_stage){1000.0 * (j + 1), 0.1 * j, 0.0};
+        slow[j] = (hci_sensor_stage){0.01 * (j + 1), 0.1 * j, 0.0};
     }
     check_many(lag);
     check_many(resonance);
+    check_many(slow);
 }
 
 int main(void)

@@ -171,6 +171,31 @@ static void test_cancelling_under_saturation(void)
     TEST_ASSERT_TRUE(reached > 60 && missed > 5);
 }
 
+/* The same machine with another unit of the current: the same currents in it. */
+static void test_cancelling_in_any_unit(void)
+{
+    const double unit = ldexp(1.0, -30);
+    uint64_t seed = 34;
+    for (int trial = 0; trial < 50; ++trial) {
+        const curve c = draw(&seed, 0.03);
+        curve small = c;
+        for (int k = 0; k < 2; ++k)
+            small.quadric.e[k] /= unit;
+        for (int k = 0; k < 3; ++k)
+            small.quadric.slope[k] /= unit * unit;
+        for (int k = 0; k < 4; ++k)
+            small.cubic[k] /= unit * unit * unit;
+        const hci_smooth_torque torque = {torque_at, &c}, of_small = {torque_at, &small};
+        const double wanted = ref_uniform(&seed, 0.8, 2.0);
+        double x[2], y[2];
+        TEST_ASSERT_EQUAL_INT(
+            hci_strategy_smooth_current(&torque, &c.quadric, HCI_STRATEGY_CANCEL, wanted, NULL, x),
+            hci_strategy_smooth_current(&of_small, &small.quadric, HCI_STRATEGY_CANCEL, wanted, NULL, y));
+        for (int k = 0; k < 2; ++k) /* powers of two change no digit */
+            TEST_ASSERT_DOUBLE_WITHIN(1e-12 * hypot(x[0], x[1]), x[k], y[k] / unit);
+    }
+}
+
 /* Two roots that are equally long: the one nearer to what went before. i_d² = (1 − a)/… of T = e i_q + ½ h
  * i_d² + T_cog. */
 static void test_of_two_roots_the_nearer(void)
@@ -184,6 +209,43 @@ static void test_of_two_roots_the_nearer(void)
             HCI_OK, hci_strategy_smooth_current(&torque, &c.quadric, HCI_STRATEGY_CANCEL, 1.5, previous, x));
         TEST_ASSERT_DOUBLE_WITHIN(1e-9, side, x[0]);
         TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.5, x[1]);
+    }
+}
+
+/* ---- a torque of few directions ---- */
+
+/* T = r e^{400 (cos(φ − direction) − 1)}, a third of it 4° aside; and a hill beside, the other way, of less
+ * than 1 N·m. */
+typedef struct {
+    double direction_rad, hill_Nm;
+} ridge;
+
+static double ridge_at(const void *context, const double x[2], double gradient[2])
+{
+    const ridge *t = context;
+    const double r = hypot(x[0], x[1]), phi = atan2(x[1], x[0]) - t->direction_rad;
+    const double c = r > 0.0 ? x[0] / r : 1.0, s = r > 0.0 ? x[1] / r : 0.0;
+    const double f = exp(400.0 * (cos(phi) - 1.0)), across = -400.0 * sin(phi) * f;
+    const double a = x[0] + 0.5 * cos(t->direction_rad), b = x[1] + 0.5 * sin(t->direction_rad);
+    const double hill = t->hill_Nm * exp(-50.0 * (a * a + b * b));
+    gradient[0] = f * c - across * s - 100.0 * a * hill;
+    gradient[1] = f * s + across * c - 100.0 * b * hill;
+    return r * f + hill;
+}
+
+/* The shortest current is along the ridge, in whichever direction that is; what comes near elsewhere, and on
+ * a shorter way, does not count where the torque is reached. */
+static void test_a_torque_that_few_directions_make(void)
+{
+    const hci_machine_point mutual = {{0.0, 1.0}, {0.0, 0.0, 0.0}, 0.0};
+    for (int k = 0; k < 96; ++k) {
+        const ridge t = {2.0 * REF_PI * (k % 48) / 48.0 + 0.01, k < 48 ? 0.0 : 0.99};
+        const hci_smooth_torque torque = {ridge_at, &t};
+        double x[2];
+        TEST_ASSERT_EQUAL_INT(HCI_OK,
+                              hci_strategy_smooth_current(&torque, &mutual, HCI_STRATEGY_MTPA, 1.0, NULL, x));
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, cos(t.direction_rad), x[0]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, sin(t.direction_rad), x[1]);
     }
 }
 
@@ -251,7 +313,9 @@ int main(void)
     RUN_TEST(test_a_quadric_is_answered_as_by_its_own_formulas);
     RUN_TEST(test_shortest_current_under_saturation);
     RUN_TEST(test_cancelling_under_saturation);
+    RUN_TEST(test_cancelling_in_any_unit);
     RUN_TEST(test_of_two_roots_the_nearer);
+    RUN_TEST(test_a_torque_that_few_directions_make);
     RUN_TEST(test_what_is_not_reached);
     RUN_TEST(test_where_no_current_helps);
     return UNITY_END();

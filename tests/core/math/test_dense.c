@@ -378,6 +378,26 @@ static void test_lu_condition_goes_by_signs(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.9, hci_lu_condition(3, a, pivot, 1.0, work));
 }
 
+/* A⁻¹ = diag(2, 1 … 1) + θccᵀ with c = (0, 1, −1, 1 … −1): the search sees nothing of θ, neither from e/n nor
+ * from the first column, to which that leads. With the alternating x_i, ‖x‖₁ = 13.5 and cᵀx = −12.5,
+ * ‖A⁻¹x‖₁ = 14.5 + 100 θ; in truth the norm is 1 + 8 θ. */
+static void test_lu_condition_where_the_search_is_deceived(void)
+{
+    enum { N = 9 };
+    const double theta = 1000.0, t = theta / (1.0 + 8.0 * theta);
+    double a[N * N], work[2 * N];
+    size_t pivot[N];
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++) {
+            const double product = i == 0 || j == 0 ? 0.0 : (i + j) % 2 ? -1.0 : 1.0;
+            a[i + j * N] = (i != j ? 0.0 : i == 0 ? 0.5 : 1.0) - t * product;
+        }
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_lu_factor(N, a, pivot));
+    const double estimate = hci_lu_condition(N, a, pivot, 1.0, work);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-8 * estimate, (14.5 + 100.0 * theta) / 13.5, estimate);
+    TEST_ASSERT_TRUE(estimate >= (1.0 + 8.0 * theta) / 3.0);
+}
+
 /* Row 0 is so large that its small first element (10⁻⁹ of the row) is the pivot all the same. The elimination
  * then costs the other rows nine digits: invisible beside row 0, but not componentwise. */
 static void test_lu_refinement_of_badly_scaled_systems(void)
@@ -870,6 +890,7 @@ int main(void)
     RUN_TEST(test_lu_condition_within_three);
     RUN_TEST(test_lu_condition_needs_the_climb);
     RUN_TEST(test_lu_condition_goes_by_signs);
+    RUN_TEST(test_lu_condition_where_the_search_is_deceived);
     RUN_TEST(test_all_of_the_workspace_is_used);
     RUN_TEST(test_lu_refinement_of_badly_scaled_systems);
     RUN_TEST(test_lu_refinement_never_makes_it_worse);

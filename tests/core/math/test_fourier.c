@@ -133,6 +133,18 @@ static void test_uniform_keeps_the_angle_of_long_records(void)
     free(x);
 }
 
+/* Where a sample stands at the start of each period the angle is 0, however many turns on: no rounding of a
+ * sine is left. */
+static void test_uniform_starts_each_period_at_nothing(void)
+{
+    double x[12] = {0.0};
+    hci_harmonic actual;
+    x[0] = x[4] = x[8] = 1.0;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_fourier_uniform(x, 12, 1, 3.0, &actual));
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, actual.sine);
+    TEST_ASSERT_EQUAL_DOUBLE(0.5, actual.cosine);
+}
+
 static void test_uniform_refuses(void)
 {
     double x[12] = {1.0, 2.0, 3.0};
@@ -382,6 +394,7 @@ int main(void)
     RUN_TEST(test_uniform_against_sums_in_long_double);
     RUN_TEST(test_uniform_is_exact_for_fractional_orders);
     RUN_TEST(test_uniform_keeps_the_angle_of_long_records);
+    RUN_TEST(test_uniform_starts_each_period_at_nothing);
     RUN_TEST(test_uniform_refuses);
     RUN_TEST(test_fit_recovers_a_spectrum_from_uneven_angles);
     RUN_TEST(test_fit_interpolates);
