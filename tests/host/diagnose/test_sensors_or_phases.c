@@ -120,6 +120,27 @@ static void test_one_gain_is_told(void)
     TEST_ASSERT_EQUAL(1, count_of(HCI_FINDING_ADDED));
 }
 
+/* Three gains of which no two are alike have nothing in common, whichever sensor has which. */
+static void test_gains_that_differ_are_told(void)
+{
+    static const double GAIN[] = {0.03, 0.01, -0.02};
+    magnets = 1.0;
+    for (int turn = 0; turn < 3; ++turn) {
+        const sensors x = {.gain = {GAIN[turn], GAIN[(turn + 1) % 3], GAIN[(turn + 2) % 3]}};
+        dataset_end();
+        dataset_start();
+        measure_at(&x, 0.0, 0.0);
+        measure_at(&x, 0.0, 9.0);
+        measure_at(&x, -6.0, 9.0);
+        measure_at(&x, 5.0, 4.0);
+        measure_at(&x, 0.0, -7.0);
+        TEST_ASSERT_EQUAL(HCI_OK, diagnose(NULL));
+        TEST_ASSERT_EQUAL(HCI_FINDING_ADDED, found("current_gain")->verdict);
+        TEST_ASSERT_EQUAL(1, count_of(HCI_FINDING_ADDED));
+        TEST_ASSERT_EQUAL(0, count_of(HCI_FINDING_AMBIGUOUS));
+    }
+}
+
 /* The current that holds a shaft which turns slowly, one way all the time, against friction and cogging. */
 static void hold_at(double speed_rad_per_s)
 {
@@ -154,6 +175,7 @@ int main(void)
     RUN_TEST(test_a_sensor_that_reads_another_current);
     RUN_TEST(test_what_gains_have_in_common_may_be_magnets);
     RUN_TEST(test_one_gain_is_told);
+    RUN_TEST(test_gains_that_differ_are_told);
     RUN_TEST(test_no_gain_is_found_in_noise);
     return UNITY_END();
 }

@@ -173,6 +173,39 @@ static void test_how_alike_is_a_cosine(void)
     }
 }
 
+/* A group of one direction, f, and one of that and another one, e: told is 2 and 0.66, and both groups' XᵀX
+ * over it has the entries a and b. Just below their cosine they are joined. */
+static void test_a_second_direction_is_compared_with_the_first(void)
+{
+    const double rows[2][2 * N] = {{1.0, 0.5}, {1.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.4}};
+    const double y[2] = {1.0, 0.0}, unit[N] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+    const double a[3] = {0.5, 0.5 / sqrt(2.0 * 0.66), 0.25 / 0.66}, b[3] = {a[0], a[1], 0.41 / 0.66};
+    double ab = 0.0, aa = 0.0, bb = 0.0;
+    for (int k = 0; k < 3; ++k) { /* the entry beside the diagonal is there twice */
+        ab += (k == 1 ? 2.0 : 1.0) * a[k] * b[k];
+        aa += (k == 1 ? 2.0 : 1.0) * a[k] * a[k];
+        bb += (k == 1 ? 2.0 : 1.0) * b[k] * b[k];
+    }
+    for (int k = 0; k < 2; ++k) {
+        hci_condensed joined = {0}, two = {0};
+        size_t of[2];
+        TEST_ASSERT_TRUE(hci_condensed_start(&two, N, 2));
+        for (int j = 0; j < 2; ++j) {
+            hci_normal_equations g = {0};
+            TEST_ASSERT_TRUE(hci_normal_equations_start(&g, N));
+            hci_normal_equations_add(&g, rows[j], y, 2);
+            hci_normal_equations_finish(&g);
+            TEST_ASSERT_TRUE(hci_condensed_add(&two, &g, unit));
+            hci_normal_equations_release(&g);
+        }
+        const double least = (k ? 1.001 : 0.999) * ab / sqrt(aa * bb);
+        TEST_ASSERT_TRUE(hci_condensed_join(&two, unit, least, &joined, of));
+        TEST_ASSERT_EQUAL_UINT64(k ? 2 : 1, joined.count);
+        hci_condensed_release(&joined);
+        hci_condensed_release(&two);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -180,5 +213,6 @@ int main(void)
     RUN_TEST(test_what_is_small_is_left_out);
     RUN_TEST(test_groups_that_tell_the_same_are_joined);
     RUN_TEST(test_how_alike_is_a_cosine);
+    RUN_TEST(test_a_second_direction_is_compared_with_the_first);
     return UNITY_END();
 }

@@ -135,6 +135,17 @@ static void test_the_steps_of_an_encoder_are_bridged(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.05 * 2.0, 0.0, rms_error(MOST, ramp_rate));
 }
 
+/* Five steps of an encoder in twelve samples: over 48 of them it goes twenty steps, wherever one looks, which
+ * is just enough for a window. */
+static void test_twenty_steps_make_a_window(void)
+{
+    for (size_t k = 0; k < 200; ++k) {
+        t[k] = 1e-3 * (double)k;
+        x[k] = (double)(5 * k / 12);
+    }
+    TEST_ASSERT_EQUAL_UINT64(49, hci_derivative_window(t, x, 200));
+}
+
 static void test_what_stands_still_has_no_rate(void)
 {
     make_times(100, 1e-3);
@@ -207,6 +218,7 @@ int main(void)
     RUN_TEST(test_noise_is_smoothed_and_the_shape_is_kept);
     RUN_TEST(test_a_window_ends_before_the_shape_does);
     RUN_TEST(test_the_steps_of_an_encoder_are_bridged);
+    RUN_TEST(test_twenty_steps_make_a_window);
     RUN_TEST(test_what_stands_still_has_no_rate);
     RUN_TEST(test_the_origin_and_unit_of_time_do_not_matter);
     RUN_TEST(test_the_slope_of_a_slope);

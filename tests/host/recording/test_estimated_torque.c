@@ -21,6 +21,7 @@ typedef enum { ESTIMATED, MEASURED, LAGS, CLIPPED } made_by;
 static hci_runs runs;
 static hci_note note;
 static uint64_t seed;
+static double zero_A; /* of the current sensors as it is logged, in i_q an electrical order 1 */
 
 void setUp(void)
 {
@@ -28,6 +29,7 @@ void setUp(void)
     memset(&runs, 0, sizeof runs);
     memset(&note, 0, sizeof note);
     seed = 3;
+    zero_A = 0.0;
 }
 
 void tearDown(void)
@@ -48,6 +50,7 @@ static void run_write(const char *name, made_by by, double mean_A)
         const double theta_m = 0.0137 * (double)k;
         const double ripple_A = 0.02 * mean_A * sin(6.0 * POLE_PAIRS * theta_m);
         const double noise_A = 0.03 * ref_normal(&seed), true_A = mean_A + ripple_A;
+        const double off_A = zero_A * cos(POLE_PAIRS * theta_m + 0.5);
         const double cogging_Nm = by == ESTIMATED ? 0.0 : 0.05 * sin(6.0 * POLE_PAIRS * theta_m + 0.3);
         const double x = CONSTANT * (true_A + (by == ESTIMATED ? noise_A : 0.0)) + cogging_Nm;
         const double slope = k > 0 ? (x - before) / STEP_S : 0.0;
@@ -57,7 +60,7 @@ static void run_write(const char *name, made_by by, double mean_A)
         const double torque_Nm =
             (by == MEASURED ? x : filtered) + (by == ESTIMATED ? 0.0 : 0.004 * ref_normal(&seed));
         fprintf(file, "%.6f,%.6f,%.6f,%.6f,%.6g\n", STEP_S * (double)k, theta_m, 0.01 * ref_normal(&seed),
-                true_A + noise_A, 0.0025 * floor(torque_Nm / 0.0025 + 0.5));
+                true_A + noise_A + off_A, 0.0025 * floor(torque_Nm / 0.0025 + 0.5));
     }
     fclose(file);
 }
@@ -105,6 +108,18 @@ static void test_without_a_current_it_follows_the_noise(void)
     list_read(ESTIMATED, IDLE, NAN);
     for (size_t k = 0; k < RUNS; ++k)
         TEST_ASSERT_NULL(runs.run[k].torque_Nm);
+}
+
+/* A drive that takes the zeros of its sensors out of its estimate, and logs the currents with them. */
+static void test_without_a_current_zeros_of_sensors_are_no_noise(void)
+{
+    zero_A = 0.1;
+    list_read(ESTIMATED, IDLE, NAN);
+    for (size_t k = 0; k < RUNS; ++k)
+        TEST_ASSERT_NULL(runs.run[k].torque_Nm);
+    list_read(LAGS, IDLE, NAN);
+    for (size_t k = 0; k < RUNS; ++k)
+        TEST_ASSERT_EQUAL(HCI_TORQUE_MEASURED, runs.run[k].torque_source);
 }
 
 static void test_what_is_left_is_a_free_shaft(void)
@@ -240,6 +255,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_an_estimate_behind_a_filter_is_not_used);
     RUN_TEST(test_without_a_current_it_follows_the_noise);
+    RUN_TEST(test_without_a_current_zeros_of_sensors_are_no_noise);
     RUN_TEST(test_what_is_left_is_a_free_shaft);
     RUN_TEST(test_a_torque_that_follows_the_noise_of_a_steady_current_is_computed);
     RUN_TEST(test_beside_a_small_cogging_it_is_not);
