@@ -29,6 +29,13 @@ for mode in kill error; do
 done
 check "killed at random" python3 tests/faults/random_kills.py 20 1 "$hci_solve" "$work/older_diagnosis" $diagnose --target data/scenarios/02/target.csv
 
+# tune writes step by step: into a new folder, or with its older results set aside.
+tune="tune $work/driven/trajectory.csv --pole-pairs 2"
+run 0 $tune --kv 40 -q -o "$work/older_tuning"
+for older in none older_tuning; do
+    check "tune killed at random, $older" python3 tests/faults/random_kills.py 5 2 "$hci_solve" "$work/$older" $tune --kv 39
+done
+
 cp -R "$work/older" "$work/before"
 flock -o "$work/older" sleep 5 &
 holder=$!

@@ -7,7 +7,7 @@ is drawn evenly from nothing to a tenth more than it took when it ran to its end
 older files or the newer, in all folders within. Then the same command runs to its end, and has to leave the newer files and
 nothing else. `sweep`, which keeps its points as it goes, may hold those too, and goes on. `tune`, which writes step by
 step into a folder that is new, may hold some of the newer files, each whole and without the summary.json that ends it, and
-is refused that folder. Prints how often which was; ends with 1 if one was wrong.
+is refused that folder; where it had older results these stand beside it meanwhile, and it puts them back, and goes on. Prints how often which was; ends with 1 if one was wrong.
 """
 
 import collections
@@ -28,11 +28,13 @@ PROGRESS = ("points.csv", "sweep.csv")
 class Trial:
     def __init__(self, program, older, words, work):
         self.program, self.older, self.folder = program, older, os.path.join(work, "out")
+        self.aside = os.path.join(work, ".out.before")  # of tune: the older results, until the newer are whole
         self.command = [program, *words, "-q", "-o", self.folder]
         self.name = words[0]
 
     def begin(self):
-        shutil.rmtree(self.folder, ignore_errors=True)
+        for folder in self.folder, self.aside:
+            shutil.rmtree(folder, ignore_errors=True)
         if os.path.isdir(self.older):
             shutil.copytree(self.older, self.folder)
 
@@ -56,13 +58,13 @@ class Trial:
         found = content(self.folder)
         if found == new:
             return "newer"
-        if found == old:
+        if found == old and not (self.name == "tune" and not old and os.path.isdir(self.folder)):
             return "older"
         rest = {name: text for name, text in (found or {}).items() if name not in PROGRESS}
         if self.name == "sweep" and (rest or None) == old:
             return "progress"
-        is_step = self.name == "tune" and "summary.json" not in found and found.items() <= new.items()
-        return "steps" if is_step else None
+        is_step = self.name == "tune" and "summary.json" not in (found or {}) and (found or {}).items() <= new.items()
+        return "steps" if is_step and content(self.aside) == old else None
 
 
 def one(trial, share, old, new):
@@ -75,13 +77,16 @@ def one(trial, share, old, new):
     what = f"{held or 'neither'}, {'killed' if code < 0 else 'ended before'}"
     if not held or (code >= 0 and held != "newer"):
         return what, f"after {seconds:.4f} s it holds {held or sorted(content(trial.folder) or [])}"
+    found = content(trial.folder)
     again = trial.run()
-    if held == "steps":
-        is_refused = again == 5 and "name another folder" in trial.words
-        return what, None if is_refused else f"after {seconds:.4f} s the same command ends with {again}: {trial.words.strip()}"
+    is_refused = again == 2 and "a call was broken off there" in trial.words
+    if held == "steps" and is_refused and not old:
+        return what, None
+    if held == "steps" and found and not old:
+        return what, f"after {seconds:.4f} s the same command ends with {again}: {trial.words.strip()}"
     if held == "newer" and trial.name == "tune":
         return what, None
-    if again not in (0, 1) or content(trial.folder) != new or left_over(trial.folder):
+    if again not in (0, 1) or content(trial.folder) != new or left_over(trial.folder) or os.path.exists(trial.aside):
         return what, f"after {seconds:.4f} s the same command ends with {again}, {left_over(trial.folder)}: {trial.words.strip()}"
     return what, None
 
