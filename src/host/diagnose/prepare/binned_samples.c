@@ -28,6 +28,8 @@ enum {
     LEAST_OF_WAY = 16,
     MOST_OPEN = 8,      /* segments of samples as they are, for each run */
     MANY = 16384,       /* samples of all runs, which then have steady ones as means however short */
+    MOST_SLOW = 16384,  /* samples of a run that stay as they are where noise is slow, and … */
+    ALL_SLOW = 49152,   /* … of all of them */
     WORTH_MEANS = 2,    /* samples for each of a mean, there */
     FINER = 4,          /* times as fine as the samples of a turn, that a mean may be there */
     CREEPING_PIECES = 4 /* means of one steady run whose torque creeps */
@@ -295,11 +297,11 @@ static bool open_segment(const reduction *x, size_t first, size_t count)
     return segment_finish(x, &s);
 }
 
-/* A recording that is not steady and too long for all of it: parts of it, evenly spread. */
-static bool spread_segments(const reduction *x, size_t first, size_t count)
+/* A recording that is not steady and too long for all of it: at most so many parts of it, evenly spread. */
+static bool spread_segments(const reduction *x, size_t first, size_t count, size_t most)
 {
     const size_t pieces = (count + HCI_LONGEST_SEGMENT - 1) / HCI_LONGEST_SEGMENT;
-    const size_t kept = pieces < MOST_OPEN ? pieces : MOST_OPEN;
+    const size_t kept = pieces < most ? pieces : most;
     for (size_t k = 0; k < kept; ++k) {
         const size_t piece = pieces * k / kept, length = count / pieces;
         if (!open_segment(x, first + piece * length, length)) return false;
@@ -331,7 +333,7 @@ static bool open_segments(const reduction *x, size_t first, size_t count)
     for (size_t k = first, next; k < first + count; k = next) {
         next = by_way ? way_end(x, k, first + count) : first + count;
         if (by_way && next - k < LEAST_OF_WAY) continue; /* noise about the turning point */
-        if (!spread_segments(x, k, next - k)) return false;
+        if (!spread_segments(x, k, next - k, MOST_OPEN)) return false;
     }
     return true;
 }
@@ -437,6 +439,27 @@ static bool means_weigh_of_many(const reduction *x, hci_turn *turns, size_t coun
     return done;
 }
 
+/* Whether the noise is so slow that a mean over the turns would not show what it is; of a run that is not too
+ * long to stay as it is. False when memory is out. */
+static bool slow_noise_find(const reduction *x, const hci_turn *turns, size_t count, bool *slow)
+{
+    const alike_turns alike = alike_find(x, turns, count);
+    *slow = false;
+    if (alike.count < LEAST_TURNS || x->run->count > MOST_SLOW) return true;
+    return hci_repeats_slow_noise(&(hci_repeats_question){x->run, x->statistics, x->pole_pairs, alike.first,
+                                                          alike.samples, alike.samples / alike.count},
+                                  slow);
+}
+
+/* Parts of a run whose noise is slow, as many as all runs together have room for, and at least one. */
+static bool slow_segments(const reduction *x)
+{
+    const size_t count = x->run->count, pieces = (count + HCI_LONGEST_SEGMENT - 1) / HCI_LONGEST_SEGMENT;
+    const size_t all = x->samples->run_count * (count / pieces);
+    const size_t most = (ALL_SLOW + all / 2) / all;
+    return spread_segments(x, 0, count, most > 0 ? most : 1);
+}
+
 static bool any_creeps(const reduction *x, const hci_turn *turns, size_t count)
 {
     for (size_t k = 0, next; k < count; k = next) {
@@ -444,6 +467,16 @@ static bool any_creeps(const reduction *x, const hci_turn *turns, size_t count)
         if (hci_turns_creep(x->statistics, turns + k, next - k)) return true;
     }
     return false;
+}
+
+/* Of a run that is too long to stay as it is, or too sparse, or worth means. */
+static bool long_reduce(const reduction *x, const hci_turn *turns, size_t count)
+{
+    bool slow = false;
+    if (!slow_noise_find(x, turns, count, &slow)) return false;
+    if (slow) return slow_segments(x);
+    if (hci_turns_swing(x->run, x->statistics, turns, count)) return open_segments(x, 0, x->run->count);
+    return turns_reduce(x, turns, count);
 }
 
 static bool run_reduce(const reduction *x)
@@ -457,10 +490,8 @@ static bool run_reduce(const reduction *x)
     if (done && x->run->count <= HCI_LONGEST_SEGMENT) done = means_weigh_of_many(x, turns, count, &worth);
     if (done && x->run->count <= HCI_LONGEST_SEGMENT && !is_sparse(x, turns, count) && !worth)
         done = open_segments(x, 0, x->run->count);
-    else if (done && hci_turns_swing(x->run, x->statistics, turns, count))
-        done = open_segments(x, 0, x->run->count);
     else
-        done = done && turns_reduce(x, turns, count);
+        done = done && long_reduce(x, turns, count);
     hci_memory_free(turns);
     return done;
 }

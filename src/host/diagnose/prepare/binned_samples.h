@@ -3,9 +3,11 @@
  * In: runs as they were read, of any length. Out: samples in segments that follow each other in time. Where
  * the current, the speed and the temperature are steady over three turns or more, a segment is the
  * synchronous average: the mean of all samples in each of 4096 narrow bins of the turn, of which neighbours
- * are joined where 180 for each electrical period are enough; of a short run only where all runs together have
- * many samples, and nothing but white noise is left beside the means. Elsewhere the samples stay as they are,
- * and of a long run evenly spread parts of them. Each sample carries its readings as they were and smoothed. */
+ * are joined where 180 for each electrical period are enough; of a short run only where all runs together
+ * have many samples, and nothing but white noise is left beside the means. Not where the noise is slower than
+ * a few orders of the turn, which a mean cannot tell from what repeats, but of very long runs. There and
+ * elsewhere the samples stay as they are, and of a long run evenly spread parts of them. Each sample carries
+ * its readings as they were and smoothed. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_PREPARE_BINNED_SAMPLES_H
 #define HCI_SRC_HOST_DIAGNOSE_PREPARE_BINNED_SAMPLES_H
 

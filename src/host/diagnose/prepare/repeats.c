@@ -3,16 +3,21 @@
 #include <math.h>
 #include <string.h>
 
+#include "hci/math/harmonic.h"
 #include "host/base/memory.h"
 #include "host/diagnose/prepare/swing.h"
 #include "host/numeric/fft.h"
+#include "host/numeric/statistics.h"
 #include "host/recording/rotor_frame.h"
 
-#define OF_NOISE 30.0 /* times the mean of the spectrum, of a line: of 10⁵ runs by chance in one */
-#define ALIKE    0.25 /* correlation of neighbours */
-#define NONE     1e-4 /* of the torque or the current of a run, rms, that is next to nothing or rounding */
+#define OF_NOISE   30.0 /* times the mean of the spectrum, of a line: of 10⁵ runs by chance in one */
+#define ALIKE      0.25 /* correlation of neighbours */
+#define SLOW_POWER 4.0  /* times the noise of higher orders, of noise that is slow */
+#define NONE       1e-4 /* of the torque or the current of a run, rms, that is next to nothing or rounding */
 
 enum { CHANNELS = 3 };
+
+enum { SLOW_FROM = 1, SLOW_UNTIL = 5, ABOVE_FROM = 20, ABOVE_UNTIL = 40 }; /* orders of the turn */
 
 /* Means over bins of the turn. Angles are those within the turn. */
 typedef struct {
@@ -106,12 +111,17 @@ static bool is_nothing(const departures *x, int channel)
     return square <= least * least * (double)x->q->count;
 }
 
-static bool has_line(departures *x)
+static void spectrum_fill(departures *x)
 {
-    double sum = 0.0, most = 0.0;
     memset(x->re, 0, 2 * x->size * sizeof *x->re);
     memcpy(x->re, x->value, x->q->count * sizeof *x->re);
     hci_fft(x->re, x->im, x->size, -1);
+}
+
+static bool has_line(departures *x)
+{
+    double sum = 0.0, most = 0.0;
+    spectrum_fill(x);
     for (size_t k = 0; k < x->size / 2; ++k) {
         const double power = x->re[k] * x->re[k] + x->im[k] * x->im[k];
         sum += power;
@@ -153,6 +163,50 @@ static bool departures_make(const hci_repeats_question *q, departures *x)
     x->place = x->bin + q->count;
     x->turn_rad = hci_turn_rad(q->run, q->pole_pairs);
     return true;
+}
+
+/* The median power of the spectrum from one order of the turn to another. */
+static double power_between(departures *x, double turns, double from, double until)
+{
+    const double step = turns * (double)x->size / (double)x->q->count; /* places of one order */
+    const size_t first = (size_t)ceil(from * step), behind = (size_t)(until * step);
+    for (size_t k = first; k < behind; ++k)
+        x->value[k - first] = x->re[k] * x->re[k] + x->im[k] * x->im[k];
+    return hci_median(x->value, behind - first);
+}
+
+/* Hann's window keeps lines narrow. */
+static void window(departures *x)
+{
+    for (size_t k = 0; k < x->q->count; ++k)
+        x->value[k] *= 1.0 - cos(2.0 * HCI_PI * ((double)k + 0.5) / (double)x->q->count);
+}
+
+/* Of noise the median tells; a line of something that swings does not. */
+static bool is_slow(departures *x)
+{
+    const hci_run *run = x->q->run;
+    const size_t last = x->q->first + x->q->count - 1;
+    const double turns = fabs(run->theta_m_rad[last] - run->theta_m_rad[x->q->first]) / x->turn_rad;
+    if (2.0 * ABOVE_UNTIL * turns > (double)x->q->count) return false;
+    values_fill(x, 0);
+    means_leave(x);
+    if (is_nothing(x, 0)) return false;
+    window(x);
+    spectrum_fill(x);
+    const double slow = power_between(x, turns, SLOW_FROM, SLOW_UNTIL);
+    return slow > SLOW_POWER * power_between(x, turns, ABOVE_FROM, ABOVE_UNTIL);
+}
+
+bool hci_repeats_slow_noise(const hci_repeats_question *question, bool *slow)
+{
+    departures x;
+    const bool made = departures_make(question, &x);
+    if (made) bins_fill(&x);
+    *slow = made && is_slow(&x);
+    hci_memory_free(x.theta_rad);
+    hci_memory_free(x.bin);
+    return made;
 }
 
 bool hci_repeats_find(const hci_repeats_question *question, bool *repeats)

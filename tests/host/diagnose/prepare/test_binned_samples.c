@@ -165,6 +165,24 @@ static void test_many_short_runs_become_means(void)
     TEST_ASSERT_EQUAL_UINT64(6 * run.count, binned.count);
 }
 
+/* Noise that goes on for a tenth of a turn: a mean has it at a few orders, beside which nothing tells that it
+ * is noise. A run stays in parts as it is, unless it is very long. Of noise that goes on for a few samples
+ * the means stay. */
+static void test_slow_noise_stays(void)
+{
+    static const double goes_on[] = {0.95, 0.95, 0.5};
+    static const double turns[] = {12.3, 60.3, 12.3};
+    for (int k = 0; k < 3; ++k) {
+        double slow = 0.0;
+        turn_steadily(turns[k], 400.0, 30.0);
+        for (size_t j = 0; j < run.count; ++j)
+            run.torque_Nm[j] += 0.3 * NOISE_NM * (slow = goes_on[k] * slow + ref_normal(&seed));
+        reduce();
+        TEST_ASSERT_EQUAL_UINT64(k == 0 ? 2 : 1, binned.segment_count);
+        TEST_ASSERT_TRUE((binned.segment[0].turns == 0) == (k == 0));
+    }
+}
+
 /* A steep ripple is no scatter of the samples that are at about the same angle. */
 static void test_a_steep_torque_does_not_scatter(void)
 {
@@ -416,6 +434,7 @@ int main(void)
     RUN_TEST(test_turns_become_one_mean);
     RUN_TEST(test_sparse_turns_become_one_mean);
     RUN_TEST(test_many_short_runs_become_means);
+    RUN_TEST(test_slow_noise_stays);
     RUN_TEST(test_a_steep_torque_does_not_scatter);
     RUN_TEST(test_turns_of_a_wrapped_electrical_angle);
     RUN_TEST(test_other_columns_of_a_mean);

@@ -96,6 +96,28 @@ static void test_noise_that_goes_on(void)
     TEST_ASSERT_FALSE(repeats());
 }
 
+static bool is_slow(void)
+{
+    bool answer = false;
+    const hci_repeats_question question = {&run, &statistics, P, 0, run.count, BINS};
+    TEST_ASSERT_TRUE(hci_repeats_slow_noise(&question, &answer));
+    return answer;
+}
+
+/* Noise that goes on for a tenth of a turn is slow; not so what goes on from sample to sample, a wave of its
+ * own of a few orders, or what too few samples show. */
+static void test_slow_noise(void)
+{
+    record(6000, 12.3, &(strange){0.0, 0.0, 0.0, 0.0, 0.95});
+    TEST_ASSERT_TRUE(is_slow());
+    record(6000, 12.3, &(strange){0.0, 0.0, 0.0, 0.0, 0.5});
+    TEST_ASSERT_FALSE(is_slow());
+    record(6000, 12.3, &(strange){3.0 * NOISE_NM, 0.0, 9.7, 0.0, 0.0});
+    TEST_ASSERT_FALSE(is_slow());
+    record(6000, 80.0, &(strange){0.0, 0.0, 0.0, 0.0, 0.95});
+    TEST_ASSERT_FALSE(is_slow());
+}
+
 /* Where the angle stands there is one bin, and where nothing was read no noise. */
 static void test_odd_runs(void)
 {
@@ -125,6 +147,7 @@ int main(void)
     RUN_TEST(test_waves_of_their_own);
     RUN_TEST(test_what_creeps);
     RUN_TEST(test_noise_that_goes_on);
+    RUN_TEST(test_slow_noise);
     RUN_TEST(test_odd_runs);
     RUN_TEST(test_memory_is_out);
     return UNITY_END();
