@@ -342,6 +342,36 @@ static double beyond_errors(const run_zeros *z, const run_zero *a, const run_zer
     return beyond > 0.0 && beyond <= salient && lie_elsewhere(z, a->run, b->run) ? beyond : beyond - salient;
 }
 
+/* What a current that is read late, or behind a filter, turns by at the largest speed. */
+#define MOST_LATE_rad 1.0
+
+enum { LATE_STEPS = 20 };
+
+/* Whether all zeros are one within their errors, but for what is late by so much at the largest speed. */
+static bool are_one(const run_zeros *z, double late_rad, double most_speed)
+{
+    for (size_t k = 0; k < z->data->runs; ++k)
+        for (size_t j = 0; j < k; ++j) {
+            const run_zero a = zero_of(z, &z->data->run[j]), b = zero_of(z, &z->data->run[k]);
+            if (!a.run || !b.run) continue;
+            const double late = late_rad * (speed_of(z, a.run) - speed_of(z, b.run)) / most_speed;
+            const double apart = fabs(remainder(a.zero_rad - b.zero_rad - late, 2.0 * HCI_PI));
+            if (apart > a.error_rad + b.error_rad + a.salient_rad + b.salient_rad) return false;
+        }
+    return true;
+}
+
+/* Whether zeros that are apart turn with the speed, as no restart of an encoder makes them. */
+static bool turn_with_speed(const run_zeros *z)
+{
+    double most = 0.0;
+    for (size_t k = 0; k < z->data->runs; ++k)
+        most = fmax(most, fabs(speed_of(z, &z->data->run[k])));
+    for (int k = -LATE_STEPS; most > 0.0 && k <= LATE_STEPS; ++k)
+        if (are_one(z, MOST_LATE_rad * k / LATE_STEPS, most)) return true;
+    return false;
+}
+
 /* The two that are furthest apart. */
 static bool find_moved(const run_zeros *z, hci_check *check)
 {
@@ -357,6 +387,7 @@ static bool find_moved(const run_zeros *z, hci_check *check)
             first = a, second = b;
         }
     if (!first.run) return false;
+    if (!lie_elsewhere(z, first.run, second.run) && turn_with_speed(z)) return false;
     check->findings = 0; /* of one zero for all */
     say_moved(z, &first, &second, check);
     return true;

@@ -969,6 +969,34 @@ static void test_a_zero_that_is_less_than_a_quarter_on(void)
         TEST_ASSERT_TRUE(strcmp(check.finding[k].slip, "angle_zero_moved") != 0);
 }
 
+/* At a share of the speed, with currents that are read so late that they lag by 0.9 rad at all of it. */
+static void turn_late(sample *x, double share)
+{
+    const double speed = share * x->speed;
+    x->time_s /= fabs(share);
+    x->theta = share < 0.0 ? -x->theta : x->theta;
+    for (int s = 0; s < 3; ++s)
+        x->i[s] = 8.0 * sin(4.0 * x->theta - 0.9 * share - 2.0 * REF_PI * s / 3.0);
+    x->speed = speed;
+}
+
+MISTAKE(late_forward, turn_late(x, 1.0))
+MISTAKE(late_backward, turn_late(x, -1.0))
+MISTAKE(late_and_slow, turn_late(x, 0.1))
+MISTAKE(late_and_begun_again, turn_late(x, 0.1); x->theta += 2.0 * REF_PI / 3.0 / 4.0)
+
+/* Zeros 103 degrees apart that turn with the speed are those of late currents; where one does not, the
+ * encoder was restarted all the same. */
+static void test_late_currents_are_no_other_zero(void)
+{
+    check_three(8.0, (mistake *const[]){late_forward, late_backward, late_and_slow});
+    for (size_t k = 0; k < check.findings; ++k)
+        TEST_ASSERT_TRUE(strcmp(check.finding[k].slip, "angle_zero_moved") != 0);
+    remove_files();
+    check_three(8.0, (mistake *const[]){late_forward, late_backward, late_and_begun_again});
+    expect_first("angle_zero_moved", "third.csv is some");
+}
+
 /* A sensor that ends at 0.6 N·m has the mean of no torque: 1.2 N·m, and 0.6 N·m and a ripple. */
 #define NOISE(x) 0.05 * sin(1.234e5 * (x)->time_s)
 
@@ -1518,6 +1546,7 @@ int main(void)
     RUN_TEST(test_radians_under_a_name_of_degrees);
     RUN_TEST(test_a_ripple_that_has_moved_tells_another_zero);
     RUN_TEST(test_a_zero_that_is_less_than_a_quarter_on);
+    RUN_TEST(test_late_currents_are_no_other_zero);
     RUN_TEST(test_the_mean_of_a_clipped_torque_is_none);
     RUN_TEST(test_friction_tells_the_sign_of_the_torque);
     RUN_TEST(test_mechanical_angle_under_electrical_name);
