@@ -232,12 +232,15 @@ static bool has_more(const hci_attribution *a)
     return false;
 }
 
-/* What the runs without a current show by themselves, too, where those held out are worse for it. */
+/* What the runs without a current show by themselves, too, where those held out are worse for it; not a
+ * torque over the angle that nothing else makes without a current. */
 static hci_status established_leave(hci_dataset *b, const hci_runs *runs, hci_attribution *a,
                                     hci_diagnosis *d, hci_note *note)
 {
+    const bool is_new = hci_no_load_is_new(b->regression.machine, &a->model.candidates);
     for (size_t r = 0; r < a->types; ++r)
-        a->verdict[r].established = false;
+        a->verdict[r].established =
+            a->verdict[r].established && is_new && hci_no_load_is_asked(a->verdict[r].type);
     a->no_load_alone = false;
     return withdraw(b, runs, a, d, true, note);
 }
@@ -291,6 +294,7 @@ static hci_status denied_leave(hci_dataset *b, const hci_runs *runs, hci_attribu
         asked = asked || (is_in(&a->verdict[r]) && hci_no_load_is_asked(a->verdict[r].type));
     if (!asked || !d->no_load_alone) return HCI_OK;
     const char *why = hci_no_load_denied(b, runs, &a->model.candidates, d);
+    d->no_load_against = !why && hci_no_load_rises(b, runs, d);
     if (!why) return HCI_OK;
     for (size_t r = 0; r < a->types; ++r) {
         hci_verdict *v = &a->verdict[r];

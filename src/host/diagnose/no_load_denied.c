@@ -7,6 +7,7 @@
 #define DENIED    0.25 /* of the square that a torque takes away, by which it may raise others */
 #define BY_CHANCE 2.0  /* deviations */
 #define ONE       0.1  /* of a speed, by which others are the same */
+#define MADE      3.0  /* times a declared amplitude, that no sensor makes of it */
 #define SHRINKS   1.05 /* times an amplitude, that a lag leaves of it at most */
 
 bool hci_no_load_is_asked(const hci_effect_type *type)
@@ -57,8 +58,7 @@ static bool rises_by_part(const ripples *loaded, const ripples *other)
     return fall > 0.0 && rise > DENIED * fall && rise + fall > BY_CHANCE * sqrt(variance / loaded->runs);
 }
 
-/* Whether the ripple that is left of the runs under load is larger than that of the declared machine. */
-static bool rises(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d)
+bool hci_no_load_rises(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d)
 {
     ripples loaded = {0}, other = {0};
     for (size_t k = 0; k < d->runs; ++k)
@@ -102,10 +102,26 @@ static bool is_like_lag(const hci_machine *machine, const hci_candidates *model)
     return true;
 }
 
+/* ---- orders that are not declared ---- */
+
+bool hci_no_load_is_new(const hci_machine *machine, const hci_candidates *model)
+{
+    double declared = 0.0, new = 0.0; /* squares of what changes */
+    for (size_t k = 0; k < model->count; ++k) {
+        const hci_candidate *x = &model->candidate[k];
+        if (!x->in || !hci_no_load_is_asked(x->type) || x->count != 2) continue;
+        const hci_harmonic *a = declared_at(machine, x->term[0].order);
+        const double square = pow(x->term[0].value, 2.0) + pow(x->term[1].value, 2.0);
+        const double was = a ? a->sine * a->sine + a->cosine * a->cosine : 0.0;
+        *(square > MADE * MADE * was ? &new : &declared) += square;
+    }
+    return new > declared;
+}
+
 const char *hci_no_load_denied(const hci_dataset *b, const hci_runs *runs, const hci_candidates *model,
                                const hci_diagnosis *d)
 {
-    if (rises(b, runs, d))
+    if (hci_no_load_rises(b, runs, d) && !hci_no_load_is_new(b->regression.machine, model))
         return "The runs under load deny a torque over the angle that those without a current show: their "
                "ripple is larger with it, as where the torque sensor lags or its coupling has play; it was "
                "left out";

@@ -280,7 +280,12 @@ static void say_partly(const hci_words *w, const hci_diagnosis *d)
     if (d->no_load_alone) hci_words_say(w, ", which the runs without a current show by themselves");
     hci_words_say(w, "; what else it lacks is not known%s.", is_unfinished(d) ? " yet" : "");
     say_parts_of_whole(w, d);
-    if (d->no_load_alone && !d->no_load_denied && d->holdout_after_Nm > (1.0 + SAME) * d->holdout_before_Nm)
+    if (d->no_load_against)
+        hci_words_say(
+            w, " Under load the ripple is larger with it: something that is not known makes the same orders "
+               "there and works against it.");
+    else if (d->no_load_alone && !d->no_load_denied &&
+             d->holdout_after_Nm > (1.0 + SAME) * d->holdout_before_Nm)
         hci_words_say(w, " Under load that does not hold by itself: there the error rises with it.");
 }
 

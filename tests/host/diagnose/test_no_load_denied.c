@@ -5,12 +5,20 @@
 
 #include "support/searching.h"
 
-void setUp(void)
+static double order; /* of the cogging torque that is recorded */
+
+static void declare(const char *cogging)
 {
-    dataset_start();
-    files_write(files_path("cogging.csv"), "order,amplitude_Nm,phase_rad\n6,0.1,0\n");
+    files_write(files_path("cogging.csv"), cogging);
     hci_machine_release(&machine);
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_machine_read(files_root, &machine, &(hci_note){{0}}));
+}
+
+void setUp(void)
+{
+    order = 6.0;
+    dataset_start();
+    declare("order,amplitude_Nm,phase_rad\n6,0.1,0\n");
 }
 
 void tearDown(void)
@@ -24,7 +32,7 @@ static void record_cogging(const point *x, double cogging_Nm, double lag_rad)
     const size_t r = runs.count;
     record(600, x);
     for (size_t k = 0; k < 600; ++k)
-        run[r].torque_Nm[k] += cogging_Nm * sin(6.0 * (P * run[r].theta_m_rad[k] - lag_rad));
+        run[r].torque_Nm[k] += cogging_Nm * sin(order * (P * run[r].theta_m_rad[k] - lag_rad));
 }
 
 static void record_loads(double cogging_Nm, double lag_rad)
@@ -120,6 +128,34 @@ static void test_two_speeds_tell_it(void)
     TEST_ASSERT_FALSE(words_say("deny") || words_say("lags or averages"));
 }
 
+/* An order that the machine does not declare is nothing that a sensor makes of another one: it stays,
+ * although something else works against it under load. */
+static void test_an_order_that_is_not_declared_stays(void)
+{
+    order = 12.0;
+    declare("order,amplitude_Nm,phase_rad\n12,0,0\n");
+    record_cogging(&(point){60.0, 0.0, 0.0, 0.0, 0.0}, 0.05, 0.0);
+    record_cogging(&(point){-60.0, 0.0, 0.0, 0.0, 0.0}, 0.05, 0.0);
+    record_loads(-0.05, 0.0);
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_PARTLY, diagnosis.verdict);
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("cogging")->verdict);
+    TEST_ASSERT_TRUE(words_say("Under load the ripple is larger with it"));
+}
+
+/* The same where runs that are held out are worse for it, by mean and ripple. */
+static void test_an_order_that_is_not_declared_stays_beside_runs_held_out(void)
+{
+    order = 12.0;
+    declare("order,amplitude_Nm,phase_rad\n12,0,0\n");
+    record_cogging(&(point){60.0, 0.0, 0.0, 0.0, 0.0}, 0.05, 0.0);
+    record_cogging(&(point){-60.0, 0.0, 0.0, 0.0, 0.0}, 0.05, 0.0);
+    record_loads(-0.05, 0.0);
+    runs.role[4] = runs.role[5] = HCI_ROLE_HOLDOUT;
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_ADDED, found("cogging")->verdict);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -128,5 +164,7 @@ int main(void)
     RUN_TEST(test_a_larger_rise_denies);
     RUN_TEST(test_one_speed_does_not_tell_a_lag);
     RUN_TEST(test_two_speeds_tell_it);
+    RUN_TEST(test_an_order_that_is_not_declared_stays);
+    RUN_TEST(test_an_order_that_is_not_declared_stays_beside_runs_held_out);
     return UNITY_END();
 }

@@ -183,13 +183,15 @@ typedef struct {
     hci_next_point next[HCI_MOST_NEXT_POINTS]; /* what to record next, most telling first */
     size_t next_points;                        /* entries of next in use; 0: nothing is left open */
     char advice[3 * HCI_DETAIL_SIZE];          /* the same in a few sentences, or "" */
-    bool contradicted;  /* effects described the runs that were fitted, but not those held out, and were
-                           dropped */
-    bool means_open;    /* effects described the means of the runs that were fitted, but not of those left
-                         * out, and were dropped */
-    bool means_alone;   /* and nothing stands in the ripple beside what is left of these means */
-    bool no_load_alone; /* the effects are those that the runs without a current show by themselves, since
-                         * what   acts under load is not known */
+    bool contradicted;    /* effects described the runs that were fitted, but not those held out, and were
+                             dropped */
+    bool means_open;      /* effects described the means of the runs that were fitted, but not of those left
+                           * out, and were dropped */
+    bool means_alone;     /* and nothing stands in the ripple beside what is left of these means */
+    bool no_load_alone;   /* the effects are those that the runs without a current show by themselves, since
+                           * what   acts under load is not known */
+    bool no_load_against; /* under load the ripple is larger with those: something unknown there works against
+                             them */
     const char *no_load_denied; /* why what the runs without a current show was left out, in words; NULL: it
                                  * was not */
     double resolution_Nm;       /* torque that the model was not asked to be better than */
