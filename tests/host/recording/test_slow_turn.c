@@ -97,6 +97,31 @@ static void test_a_fast_shaft_under_load_is_none(void)
     TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, run.torque_source);
 }
 
+/* i_q with a mean, or noise about none, of a motor of any size. */
+static bool is_loaded(double mean_A, double noise_A)
+{
+    static double theta_m_rad[N], i_A[3 * N];
+    uint64_t seed = 11;
+    for (size_t k = 0; k < N; ++k) {
+        theta_m_rad[k] = 0.01 * (double)k;
+        const double q_A = mean_A + noise_A * ref_normal(&seed);
+        for (int s = 0; s < 3; ++s)
+            i_A[3 * k + (size_t)s] = q_A * sin(P * theta_m_rad[k] - s * 2.0943951023931953);
+    }
+    const hci_run one = {.theta_m_rad = theta_m_rad, .i_A = i_A, .count = N};
+    return hci_run_is_loaded(&one, P);
+}
+
+static void test_a_load_is_more_than_a_current_varies_by(void)
+{
+    for (double unit_A = 1e-4; unit_A < 1e4; unit_A *= 10.0) {
+        TEST_ASSERT_TRUE(is_loaded(4.1 * unit_A, unit_A));
+        TEST_ASSERT_TRUE(is_loaded(-4.1 * unit_A, unit_A));
+        TEST_ASSERT_FALSE(is_loaded(3.8 * unit_A, unit_A));
+        TEST_ASSERT_FALSE(is_loaded(0.0, unit_A));
+    }
+}
+
 /* A shaft that runs down from 30 rad/s in a second and stands for seven more; its sensors read a zero and
  * noise, in A. */
 static void read_coast(double zero_A, double noise_A)
@@ -261,6 +286,7 @@ int main(void)
     RUN_TEST(test_a_map_goes_the_way_of_its_rows);
     RUN_TEST(test_a_slow_turn_is_found);
     RUN_TEST(test_a_fast_shaft_under_load_is_none);
+    RUN_TEST(test_a_load_is_more_than_a_current_varies_by);
     RUN_TEST(test_a_coast_with_a_long_rest_is_free);
     RUN_TEST(test_a_shaft_that_is_accelerated_is_none);
     RUN_TEST(test_it_takes_inertia_and_torque_constant);

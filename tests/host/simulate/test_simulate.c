@@ -4,6 +4,7 @@
 
 #include "hci/host/simulate/simulate.h"
 #include "support/simulating.h"
+#include "support/texts.h"
 
 void setUp(void)
 {
@@ -50,6 +51,21 @@ static void test_a_solution_is_scaled_by_the_torque(void)
         simulate(&machine_a, "duration,0.05,s\nprescribed_speed,1500,rpm\ntorque_reference,1.3,Nm\n" TURNED);
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, 1.3, s.torque_Nm.mean);
     TEST_ASSERT_TRUE(s.T_ripple_percent < 1e-3);
+    hci_simulation_release(&s);
+    hci_solution_release(&solution);
+}
+
+/* An electrical turn takes 20 ms and has 42.6 steps of 0.47 ms: order 10 has four of them, order 11 has not.
+ */
+static void test_spectrum_ends_where_a_period_has_four_steps(void)
+{
+    hci_solution solution =
+        solve(&machine_a, "data/scenarios/02/target.csv", HCI_METHOD_AUTO, HCI_STRATEGY_MTPA);
+    hci_simulation s =
+        simulate(&machine_a, "duration,0.2,s\nprescribed_speed,1500,rpm\nstep,0.47,ms\n" TURNED);
+    TEST_ASSERT_EQUAL_UINT64(11, s.spectrum_count);
+    TEST_ASSERT_EQUAL_DOUBLE(10.0, s.spectrum_Nm[10].order);
+    text_has("the spectrum ends at order 10, above which a period has fewer than 4 steps", s.remark.text);
     hci_simulation_release(&s);
     hci_solution_release(&solution);
 }
@@ -320,6 +336,7 @@ int main(void)
     RUN_TEST(test_imposed_currents_keep_the_promise_of_machine_a);
     RUN_TEST(test_imposed_currents_keep_the_promise_of_machine_c);
     RUN_TEST(test_a_solution_is_scaled_by_the_torque);
+    RUN_TEST(test_spectrum_ends_where_a_period_has_four_steps);
     RUN_TEST(test_spectrum_is_over_the_angle);
     RUN_TEST(test_turning_backwards_gives_the_same_spectrum);
     RUN_TEST(test_a_rotor_at_rest_has_no_spectrum);
