@@ -10,6 +10,7 @@
 #include "hci/machine/frames.h"
 #include "host/base/memory.h"
 #include "host/machine/expected_ripple.h"
+#include "host/solution/expect.h"
 #include "support/files.h"
 #include "support/reference.h"
 #include "unity.h"
@@ -320,6 +321,25 @@ static void test_ripple_of_the_model(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-3, 0.6, e.peak_to_peak_Nm);
 }
 
+/* Order 512, of which 1024 samples of a turn would see the zeros alone. */
+static void test_an_order_above_those_of_a_solution(void)
+{
+    static char text[4096] = "effect,parameter,value,unit,departures\ncogging,sine_512,0,Nm,";
+    hci_solved_order mean = {.torque_Nm = {0.0, 0.0, MEAN_NM}, .target_Nm = {0.0, 0.0, MEAN_NM}};
+    hci_wave sine = {1.0, 1, 1.0, 0.0};
+    hci_solution s = {.order = &mean, .order_count = 1, .period_turns = 1};
+    s.current.wave = &sine;
+    s.current.count = 1;
+    for (int m = 1; m <= MACHINES; ++m)
+        strcat(text, m % 2 ? " 0.01" : " -0.01");
+    strcat(text, "\n");
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, read_texts(text, THREE_RUNS), note.text);
+    hci_solve_options options = {.uncertainty = &uncertainty};
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_solution_expect(&MACHINE, &options, &s, &note));
+    TEST_ASSERT_EQUAL_INT(HCI_RIPPLE_KNOWN, s.expected.state);
+    TEST_ASSERT_DOUBLE_WITHIN(0.05 * 0.02, 0.02, s.expected.peak_to_peak_Nm);
+}
+
 /* RUNS: i_d −3 … 2.5 A, i_q −1 … 6 A. */
 static void test_currents_outside(void)
 {
@@ -562,6 +582,7 @@ int main(void)
     RUN_TEST(test_one_uncertain_order);
     RUN_TEST(test_the_mean_is_told_apart);
     RUN_TEST(test_ripple_of_the_model);
+    RUN_TEST(test_an_order_above_those_of_a_solution);
     RUN_TEST(test_currents_outside);
     RUN_TEST(test_grows_with_the_current);
     RUN_TEST(test_not_known);

@@ -64,6 +64,21 @@ static void test_a_tenth_of_the_magnets_is_not(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.1, search.disbelieved.constant_share);
 }
 
+/* Of the declared torque per ampere: what a back-EMF that is less by a fifth leaves; of a machine that
+ * declares none, all. */
+static void test_share_of_the_declared_torque(void)
+{
+    double share = 0.0;
+    record_share(0.8, 0.0);
+    model_add("back_emf", "sine", NULL, 1.0);
+    model.candidates.candidate[0].term[0].value = -0.2 * K_NM_PER_A;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_constant_share(&search, &model.candidates, &share, &note));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.8, share);
+    dataset.regression.declared_constant = 0.0;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_constant_share(&search, &model.candidates, &share, &note));
+    TEST_ASSERT_EQUAL_DOUBLE(1.0, share);
+}
+
 /* Three times what is expected of a sensor's gain, 0.1, is the border. */
 static void test_a_sensor_with_half_its_gain_is_not(void)
 {
@@ -298,6 +313,7 @@ int main(void)
     RUN_TEST(test_a_lag_of_more_than_a_turn_is_not);
     RUN_TEST(test_nor_beside_a_shaft_that_stands);
     RUN_TEST(test_nor_a_resonance_that_is_one);
+    RUN_TEST(test_share_of_the_declared_torque);
     RUN_TEST(test_a_sensor_with_half_its_gain_is_not);
     RUN_TEST(test_a_friction_that_drives_is_not);
     RUN_TEST(test_nor_one_that_falls_with_the_speed);
