@@ -450,6 +450,38 @@ static void test_allowance_and_mean(void)
     }
 }
 
+/* With another unit of the current the same components are chosen, few or all, with the same currents in it.
+ */
+static void test_any_unit_of_the_current(void)
+{
+    static problem p, other;
+    uint64_t seed = 20224;
+    const double unit = ldexp(1.0, -30);
+    for (int k = 0; k < 2 * PROBLEMS; ++k) {
+        hci_note note = {{0}};
+        hci_solution s, small;
+        draw(&seed, &p);
+        other = p;
+        for (size_t j = 0; j < p.emf_count; ++j) {
+            other.back_emf[j].sine /= unit;
+            other.back_emf[j].cosine /= unit;
+        }
+        other.machine.model.back_emf = other.machine.back_emf = other.back_emf;
+        hci_solve_options options = {.target = &p.target, .choose_at_most = k % 2 ? 3 : 0};
+        TEST_ASSERT_TRUE(hci_solve(&p.machine, &options, &s, &note) <= HCI_NOT_REACHED);
+        TEST_ASSERT_TRUE(hci_solve(&other.machine, &options, &small, &note) <= HCI_NOT_REACHED);
+        TEST_ASSERT_EQUAL_UINT64(s.current.count, small.current.count);
+        for (size_t j = 0; j < s.current.count; ++j) {
+            const hci_wave *a = &s.current.wave[j], *b = &small.current.wave[j];
+            TEST_ASSERT_TRUE(a->order == b->order && a->sequence == b->sequence);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-9, a->sine, b->sine / unit);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-9, a->cosine, b->cosine / unit);
+        }
+        hci_solution_release(&s);
+        hci_solution_release(&small);
+    }
+}
+
 /* A fundamental that is held stays as it is, beside at most K others, and is not chosen a second time. */
 static void test_beside_a_held_fundamental(void)
 {
@@ -481,6 +513,7 @@ int main(void)
     RUN_TEST(test_against_all_subsets);
     RUN_TEST(test_more_components_are_not_worse);
     RUN_TEST(test_allowance_and_mean);
+    RUN_TEST(test_any_unit_of_the_current);
     RUN_TEST(test_beside_a_held_fundamental);
     return UNITY_END();
 }
