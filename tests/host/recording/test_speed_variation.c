@@ -5,6 +5,7 @@
 
 #include "hci/host/recording/run.h"
 #include "hci/math/harmonic.h"
+#include "host/recording/speed_variation.h"
 #include "support/files.h"
 #include "support/texts.h"
 #include "unity.h"
@@ -102,10 +103,32 @@ static void test_a_shaft_that_sticks_and_slips(void)
     TEST_ASSERT_FALSE(run.is_unsteady);
 }
 
+/* A shaft that stands at 64 of 320 samples twice on its way of so many electrical turns: 0.05 of a turn at
+ * the mean pace has to be some samples, and not most of them. */
+static void test_stops_on_the_way(void)
+{
+    enum { N = 320, PAIRS = 3 };
+    static double theta_m_rad[N], time_s[N];
+    static const double TURNS[] = {0.15, 2.0, 8.0};
+    for (int j = 0; j < 3; ++j) {
+        double share = 0.0, path_turns;
+        for (int k = 0; k < N; ++k) {
+            const bool stands = (k >= 64 && k < 128) || (k >= 192 && k < 256);
+            time_s[k] = 0.01 * k;
+            theta_m_rad[k] = 2.0 * 3.14159265358979 * TURNS[j] / PAIRS * share;
+            share += stands ? 0.0 : 1.0 / (N - 129);
+        }
+        const hci_run shaft = {.time_s = time_s, .theta_m_rad = theta_m_rad, .count = N};
+        TEST_ASSERT_EQUAL_UINT64(j == 0 ? 0 : 2, hci_speed_stops(&shaft, PAIRS, &path_turns));
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, TURNS[j], path_turns);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_shaft_that_sticks_and_slips);
+    RUN_TEST(test_stops_on_the_way);
     RUN_TEST(test_noise);
     RUN_TEST(test_what_stays);
     return UNITY_END();
