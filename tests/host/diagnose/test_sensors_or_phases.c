@@ -141,6 +141,40 @@ static void test_gains_that_differ_are_told(void)
     }
 }
 
+/* Of the torque at the sensor, and of order 6 of the cogging torque beside what is declared. */
+static void read_wrong(double gain, double differs_Nm)
+{
+    for (size_t k = 0; k < runs.count; ++k)
+        for (size_t j = 0; j < run[k].count; ++j) {
+            const double theta = P * run[k].theta_m_rad[j],
+                         declared_Nm = 0.1 * sin(6.0 * theta) + 0.06 * sin(12.0 * theta);
+            run[k].torque_Nm[j] = (1.0 + gain) * (run[k].torque_Nm[j] + declared_Nm +
+                                                  differs_Nm * (cos(6.0 * theta) - sin(6.0 * theta)));
+        }
+}
+
+/* A torque sensor that reads too little, of a machine one order of whose cogging torque is another one: the
+ * other order shows that it is the sensor, and no gain that the phases or their sensors have in common. */
+static void test_a_gain_of_the_torque_sensor_beside_another_cogging_torque(void)
+{
+    hci_note text = {{0}};
+    magnets = 1.0;
+    files_write(files_path("cogging.csv"), "order,amplitude_Nm,phase_rad\n6,0.1,0\n12,0.06,0\n");
+    hci_machine_release(&machine);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_machine_read(files_root, &machine, &text), text.text);
+    static const double D_A[] = {0.0, 0.0, -6.0, 5.0, 0.0}, Q_A[] = {0.0, 9.0, 9.0, 4.0, -7.0};
+    for (int k = 0; k < 5; ++k)
+        measure_at(&(sensors){.a_of_b = 0.0}, D_A[k], Q_A[k]);
+    read_wrong(-0.06, 0.08);
+    TEST_ASSERT_EQUAL(HCI_OK, diagnose(NULL));
+    TEST_ASSERT_EQUAL(HCI_FINDING_ADDED, found("torque_gain")->verdict);
+    TEST_ASSERT_EQUAL(HCI_FINDING_ADDED, found("cogging")->verdict);
+    TEST_ASSERT_EQUAL(2, count_of(HCI_FINDING_ADDED));
+    TEST_ASSERT_DOUBLE_WITHIN(0.002, -0.06, term("torque_gain", "gain", 0.0)->value);
+    TEST_ASSERT_DOUBLE_WITHIN(0.004, 0.08, term("cogging", "cosine", 6.0)->value);
+    TEST_ASSERT_DOUBLE_WITHIN(0.004, -0.08, term("cogging", "sine", 6.0)->value);
+}
+
 /* The current that holds a shaft which turns slowly, one way all the time, against friction and cogging. */
 static void hold_at(double speed_rad_per_s)
 {
@@ -176,6 +210,7 @@ int main(void)
     RUN_TEST(test_what_gains_have_in_common_may_be_magnets);
     RUN_TEST(test_one_gain_is_told);
     RUN_TEST(test_gains_that_differ_are_told);
+    RUN_TEST(test_a_gain_of_the_torque_sensor_beside_another_cogging_torque);
     RUN_TEST(test_no_gain_is_found_in_noise);
     return UNITY_END();
 }

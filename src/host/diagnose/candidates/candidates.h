@@ -95,6 +95,7 @@ typedef struct {
     bool magnetic_only; /* only those of the magnetic circuit that the currents tell apart */
     bool no_current;    /* without those that need a current */
     const bool *denied; /* without these, of each type; NULL: all */
+    bool one_gain;      /* the model shows a gain of the torque sensor, whatever the residual does */
     bool has_neutral;   /* of the machine */
 } hci_candidates_source;
 

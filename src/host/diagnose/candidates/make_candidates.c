@@ -257,7 +257,7 @@ static bool survey_residual(const hci_candidates_source *s, const hci_candidate_
     if (!hci_angle_orders_find(s, lines->stride, lines->resolved, &f->angle)) return false;
     x->flux_order = f->flux.order;
     x->flux_orders = f->flux.count;
-    x->one_gain = f->flux.one_gain;
+    x->one_gain = s->one_gain || f->flux.one_gain;
     x->angle_order = f->angle.order;
     x->angle_orders = f->angle.count;
     x->of_speed = f->of_speed;

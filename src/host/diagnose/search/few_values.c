@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "host/diagnose/candidates/modelled_gain.h"
 #include "host/diagnose/search/belief.h"
 #include "host/diagnose/search/forward.h"
 #include "host/diagnose/search/stability.h"
@@ -220,4 +221,74 @@ hci_status hci_search_late_channel(hci_search *s, hci_fitted_model *model, bool 
         hci_fitted_model_release(&late);
     }
     return status || !*changed ? status : hci_search_renew(s, model, note);
+}
+
+/* ---- a gain of the torque sensor in place of a scale of all that the machine makes ---- */
+
+static const hci_effect_type *torque_gain(void)
+{
+    size_t k = 0;
+    const hci_effect_type *type;
+    while ((type = hci_effect_type_at(k)) != NULL && !(type->read_torque && type->seen_as))
+        ++k;
+    return type;
+}
+
+/* The type that changes the torque per ampere by most, and by how much; NULL: none does. */
+static hci_status scale_find(const hci_search *s, const hci_candidates *model, const hci_effect_type **type,
+                             double *gain, hci_note *note)
+{
+    double share = 1.0;
+    hci_status status = hci_search_constant_share(s, model, &share, note);
+    *type = NULL;
+    *gain = 0.0;
+    for (size_t r = 0; r < hci_candidate_types() && !status; ++r) {
+        hci_candidates without = {0};
+        double rest = share;
+        if (!hci_candidates_have(model, hci_candidate_type(r))) continue;
+        status = hci_candidates_copy(model, &without, note);
+        if (!status) hci_candidates_remove_type(&without, hci_candidate_type(r));
+        if (!status) status = hci_search_constant_share(s, &without, &rest, note);
+        hci_candidates_release(&without);
+        if (status || rest == 0.0 || fabs(share / rest - 1.0) <= fabs(*gain)) continue;
+        *type = hci_candidate_type(r);
+        *gain = share / rest - 1.0;
+    }
+    return status;
+}
+
+/* The model with a gain in place of that, and of the orders of the cogging torque that show the same. */
+static hci_status read_make(hci_search *s, const hci_fitted_model *model, const hci_effect_type *scale,
+                            double gain, hci_fitted_model *read, hci_note *note)
+{
+    hci_candidate x = {.type = torque_gain(), .count = 1, .in = true};
+    x.term[0] = (hci_effect_term){0, 0.0, gain, NAN};
+    hci_status status = hci_fitted_model_copy(model, read, note);
+    for (size_t k = 0; !status && k < read->candidates.count; ++k)
+        if (hci_modelled_gain_has(s->regression->machine, &model->candidates, gain, k))
+            read->candidates.candidate[k].in = false;
+    if (!status) hci_candidates_remove_type(&read->candidates, scale);
+    if (!status) status = hci_candidates_add(&read->candidates, &x, note);
+    return status ? status : hci_search_fit(s, read, note);
+}
+
+hci_status hci_search_torque_gain(hci_search *s, hci_fitted_model *model, bool *changed, hci_note *note)
+{
+    const hci_effect_type *scale;
+    double gain;
+    hci_fitted_model read = {0};
+    *changed = false;
+    if (hci_candidates_have(&model->candidates, torque_gain())) return HCI_OK;
+    hci_status status = scale_find(s, &model->candidates, &scale, &gain, note);
+    if (status || !scale || !hci_modelled_gain(s->regression->machine, &model->candidates, gain))
+        return status;
+    status = read_make(s, model, scale, gain, &read, note);
+    *changed = !status && read.fit.score < model->fit.score - HCI_DECISIVE;
+    if (*changed) {
+        hci_fitted_model_replace(model, &read);
+        s->one_gain = true;
+        status = hci_search_renew(s, model, note);
+    }
+    hci_fitted_model_release(&read);
+    return status;
 }

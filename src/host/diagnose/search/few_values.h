@@ -1,5 +1,5 @@
-/* A few effects of few values in place of one of many: of a series in the currents, or of waves that are
- * turned.
+/* A few effects of few values in place of one of many: of a series in the currents, of waves that are
+ * turned, or of a scale of all that the machine makes.
  *
  * A series describes nearly anything a little, so that one step takes it before two or three effects that
  * describe the recordings better together and each alone worse. */
@@ -22,5 +22,10 @@ hci_status hci_search_angle_zero(hci_search *search, hci_fitted_model *model, bo
  * HCI_ERROR_MEMORY. */
 hci_status hci_search_late_channel(hci_search *search, hci_fitted_model *model, bool *changed,
                                    hci_note *note);
+
+/* Puts a gain of the torque sensor in place of a scale of the torque per ampere and of the orders of the
+ * cogging torque that are off by the same, where that is decisively better: fewer values that say as much. It
+ * competes from then on. changed: out. Also where the search is over: a single fit then. HCI_ERROR_MEMORY. */
+hci_status hci_search_torque_gain(hci_search *search, hci_fitted_model *model, bool *changed, hci_note *note);
 
 #endif

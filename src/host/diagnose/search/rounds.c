@@ -79,6 +79,14 @@ static hci_status turned_settle(hci_search *s, hci_fitted_model *model, hci_note
     return status || !changed ? status : rounds_run(s, model, note);
 }
 
+/* The same of a scale of all that the machine makes, which a gain of the torque sensor is. */
+static hci_status scaled_settle(hci_search *s, hci_fitted_model *model, hci_note *note)
+{
+    bool changed = false;
+    const hci_status status = hci_search_torque_gain(s, model, &changed, note);
+    return status || !changed ? status : rounds_run(s, model, note);
+}
+
 /* ---- known effects alone ---- */
 
 #define AS_MUCH 0.01 /* of what is left, that orders of any growth may take more */
@@ -204,6 +212,7 @@ hci_status hci_search_rounds(hci_search *s, hci_fitted_model *model, hci_note *n
     hci_status status = hci_search_renew(s, model, note);
     if (!status) status = rounds_run(s, model, note);
     if (!status) status = turned_settle(s, model, note);
+    if (!status) status = scaled_settle(s, model, note);
     if (!status && hci_candidates_have(&model->candidates, &hci_empirical_type) && !hci_search_is_over(s))
         status = try_known(s, model, note);
     return status ? status : try_magnetic(s, model, note);

@@ -38,6 +38,7 @@ typedef struct {
     bool known_only;                  /* nothing unknown competes */
     bool magnetic_only;               /* nor what direct currents do not tell from the magnetic circuit */
     bool no_current;                  /* nor what needs a current */
+    bool one_gain;                    /* a gain of the torque sensor competes, whatever the residual shows */
     const bool *denied;               /* nor these, of each type; NULL: none */
     bool from_no_load;                /* the search went on from what the runs without a current show */
     bool whole_coenergy;              /* all terms of the co-energy are in, each with an expectation */
