@@ -253,15 +253,61 @@ const char *cli_tune_constant_option(const cli_tuning *t)
     return "the back-EMF of the machine";
 }
 
+/* What the inertia took out of the torque that the current of a recording makes, rms. */
+static double taken_Nm(const cli_tuning *t, const hci_run *r)
+{
+    return r->inertia_share * sqrt(2.0) * cli_tune_rms_A(r) * t->reading.run.torque_constant_Nm_per_A;
+}
+
 double cli_tune_taken_by_inertia_Nm(const cli_tuning *t, const hci_run **of)
 {
     double most_Nm = 0.0;
     for (size_t k = 0; k < t->runs.count && !(t->declared.inertia_kgm2 > 0.0); ++k) {
         const hci_run *r = &t->runs.run[k];
-        const double made_Nm = sqrt(2.0) * cli_tune_rms_A(r) * t->reading.run.torque_constant_Nm_per_A;
-        if (!(r->turns_inertia_kgm2 > 0.0) || !(r->inertia_share * made_Nm > most_Nm)) continue;
-        most_Nm = r->inertia_share * made_Nm;
+        if (!(r->turns_inertia_kgm2 > 0.0) || !(taken_Nm(t, r) > most_Nm)) continue;
+        most_Nm = taken_Nm(t, r);
         *of = r;
+    }
+    return most_Nm;
+}
+
+/* ---- an inertia that is declared ---- */
+
+const hci_run *cli_tune_denied_inertia(const cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count; ++k)
+        if (t->runs.run[k].denies_inertia) return &t->runs.run[k];
+    return NULL;
+}
+
+static bool has_current(const hci_run *r)
+{
+    return cli_tune_rms_A(r) > 0.0;
+}
+
+bool cli_tune_is_scaled_by_inertia(const cli_tuning *t)
+{
+    bool any = false;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        const bool is_other =
+            r->torque_source == HCI_TORQUE_MEASURED || r->torque_source == HCI_TORQUE_HOLDING;
+        if (is_other || (r->torque_source == HCI_TORQUE_INERTIA && has_current(r))) return false;
+        any = any || r->torque_source == HCI_TORQUE_INERTIA;
+    }
+    return any && t->declared.inertia_kgm2 > 0.0;
+}
+
+#define NARROW 3.0 /* times the least inertia, up to which the turns tell one */
+
+double cli_tune_hangs_on_inertia_Nm(const cli_tuning *t)
+{
+    double most_Nm = 0.0;
+    for (size_t k = 0; k < t->runs.count && t->declared.inertia_kgm2 > 0.0; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        if (r->torque_source != HCI_TORQUE_HOLDING) continue;
+        if (r->least_inertia_kgm2 > 0.0 && r->most_inertia_kgm2 < NARROW * r->least_inertia_kgm2) return 0.0;
+        most_Nm = fmax(most_Nm, taken_Nm(t, r));
     }
     return most_Nm;
 }

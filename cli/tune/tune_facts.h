@@ -89,6 +89,17 @@ double cli_tune_strange_rpm(const cli_tuning *tune);
  * of: out, that recording, which has the inertia. 0: --inertia was given, or none was asked for. */
 double cli_tune_taken_by_inertia_Nm(const cli_tuning *tune, const hci_run **of);
 
+/* The recording whose turns deny the declared inertia; NULL: none. */
+const hci_run *cli_tune_denied_inertia(const cli_tuning *tune);
+
+/* Whether all torque is the declared inertia x acceleration, of shafts without a current: nothing tells it
+ * then. */
+bool cli_tune_is_scaled_by_inertia(const cli_tuning *tune);
+
+/* What the declared inertia takes out of the torque of a slow turn, rms, the most of all recordings, where no
+ * turns tell it within a factor of three. 0: they do, or none is declared. */
+double cli_tune_hangs_on_inertia_Nm(const cli_tuning *tune);
+
 /* Whether the bound on the ripple is more than the torque itself, and than the ripple of a plain sine: it
  * bounds nothing. */
 bool cli_tune_is_boundless(const cli_tuning *tune);

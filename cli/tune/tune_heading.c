@@ -333,6 +333,34 @@ static void append_of_torque(cli_tuning *t)
 /* Of the ripple, that an inertia may take out and not be spoken of in the first line. */
 #define MUCH_INERTIA 0.05
 
+/* Of the one that was declared. */
+static void append_of_declared_inertia(cli_tuning *t)
+{
+    const hci_run *of = cli_tune_denied_inertia(t);
+    const double inertia_kgm2 = t->declared.inertia_kgm2, taken_Nm = cli_tune_hangs_on_inertia_Nm(t);
+    double before_Nm, after_Nm;
+    hci_tuning_swing(&t->solution, &before_Nm, &after_Nm);
+    if (of)
+        append(t,
+               "; the declared inertia of %.3g kg·m² is not that of this shaft: by current and acceleration "
+               "it is %.2g to "
+               "%.3g kg·m² (as long as the torque per ampere is right), and what is wrong in it is in "
+               "the orders "
+               "found: begin again with the right one%s",
+               inertia_kgm2, of->least_inertia_kgm2, of->most_inertia_kgm2,
+               t->is_own && of->torque_source == HCI_TORQUE_HOLDING ? ", or without --inertia" : "");
+    else if (cli_tune_is_scaled_by_inertia(t) && before_Nm >= t->solution.tolerance_Nm)
+        append(t,
+               "; all torques are in proportion to the declared inertia of %.3g kg·m², which nothing in "
+               "these logs tells",
+               inertia_kgm2);
+    else if (taken_Nm > MUCH_INERTIA * before_Nm)
+        append(t,
+               "; %.2g N·m rms of the torque hang on the declared inertia of %.3g kg·m², which these logs "
+               "hardly tell",
+               taken_Nm, inertia_kgm2);
+}
+
 static void append_of_inertia(cli_tuning *t)
 {
     const hci_run *of = NULL;
@@ -366,6 +394,7 @@ static void append_of_machine(cli_tuning *t)
 {
     char order[CLI_TUNE_ORDER], words[512];
     append_of_inertia(t);
+    if (t->is_solved) append_of_declared_inertia(t);
     if (cli_tune_is_uncounted(t))
         append(t, "; that there are %d pole pairs is taken on trust, since nothing in these logs counts them",
                t->declared.model.pole_pairs);

@@ -181,12 +181,34 @@ static void say_inertia(cli_tuning *t)
                    "speed: then it hardly matters.");
 }
 
+static void say_declared_inertia(cli_tuning *t)
+{
+    const double inertia_kgm2 = t->declared.inertia_kgm2, taken_Nm = cli_tune_hangs_on_inertia_Nm(t);
+    if (cli_tune_is_scaled_by_inertia(t))
+        hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                       "Whether the inertia is %.3g kg·m², as declared: a shaft that runs freely without a "
+                       "current shows "
+                       "inertia × acceleration alone, and where the one is off by a tenth, so are all "
+                       "torques. A slow turn "
+                       "forward and back with its current tells it, or a run-up with a known one.",
+                       inertia_kgm2);
+    else if (taken_Nm > 0.0 && !cli_tune_denied_inertia(t))
+        hci_tuning_say(
+            &t->tuning, HCI_TUNING_UNKNOWN,
+            "Whether the inertia is %.3g kg·m², as declared: it took %.2g N·m rms out of the torque of the "
+            "current, and the turns of these logs do not tell it within a factor of three. A turn at a third "
+            "of "
+            "the speed hardly needs it.",
+            inertia_kgm2, taken_Nm);
+}
+
 /* The machine that recordings without a torque sensor or voltages leave open. */
 static void say_machine(cli_tuning *t)
 {
     if (t->is_solved && cli_tune_lacks_sign(t)) say_unknown_sign(t);
     say_inertia(t);
     say_inertia_limit(t);
+    if (t->is_solved) say_declared_inertia(t);
     if (t->is_solved && t->is_own && !t->has_emf && !t->has_load)
         hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
                        "The torque per ampere and the back-EMF are those of the data sheet; voltages of the "

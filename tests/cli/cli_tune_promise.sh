@@ -56,6 +56,23 @@ slow_turn weight.csv 0.2
 run 1 tune weight.csv --pole-pairs 7 --kv 120 --rated-current 3 -o weight
 says '^tuned, with something left open: .*come once or twice a turn, and a load on the shaft makes that' 'Whether the 0\.0[0-9]* N·m of order 1/7, 1 times a mechanical turn'
 
+# ---- an inertia that is declared: what a slow turn tells of it, and what a shaft that runs out does not
+
+awk 'BEGIN { srand(1); print "time_s,theta_m_rad,speed_rad_per_s,iq_A"; J = 2e-5; k = 0.0689; h = 0.0002; x = 0.3; t = 0
+    for (way = 1; way > -2; way -= 2) for (n = 0; n < 50000; ++n) {
+        f = 84 * x + 0.7 - way * 0.9; w = way * 2 * sqrt(1 + 0.4 * sin(f))
+        if (n % 20 == 0) printf "%.4f,%.8f,%.6f,%.6f\n", t, x, w, (J * 67.2 * cos(f) - 0.004 * sin(84 * x + 0.7) + way * 0.001) / k + 0.02 * (rand() - 0.5)
+        x += h * w; t += h } }' >swings.csv
+run 0 tune swings.csv --pole-pairs 7 --kv 120 --torque 0.05 --inertia 2e-5 -o swings
+check "an inertia that is right is denied" [ "$(grep -c 'not that of this shaft' "$work/stdout")" -eq 0 ]
+run 1 tune swings.csv --pole-pairs 7 --kv 120 --torque 0.05 --inertia 1e-4 -o swings
+says '^tuned.*; the declared inertia of 0.0001 kg·m² is not that of this shaft: by current and acceleration it is [12].*e-05 to 2.*e-05 kg·m²'
+awk 'BEGIN { print "time_s,theta_m_rad"; J = 2e-4; w = 60; h = 1e-4
+    for (n = 0; w > 10; ++n) { if (n % 5 == 0) printf "%.4f,%.8f\n", n * h, x
+        w += h / J * (-0.01 - 2e-5 * w + 0.02 * sin(12 * x + 0.4)); x += h * w } }' >coast.csv
+"$hci_solve" tune coast.csv --pole-pairs 2 --kv 90 --inertia 2e-4 -o coast >"$work/stdout" 2>"$work/stderr"
+says '^tuned.* falls to .*; all torques are in proportion to the declared inertia of 0.0002 kg·m², which nothing in these logs tells'
+
 # ---- a column in another unit than the one that it is read in
 
 unit_is() { # EXPRESSION NAME HEADER: of the columns; of --column that is said; of the file

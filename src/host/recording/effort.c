@@ -213,7 +213,10 @@ static hci_effort fit(const row *r, size_t rows, size_t unknowns, double square)
     const bool has_slope = det > 1e-9 * e.aa * e.ss;
     const double a = has_slope ? (e.ss * e.ay - e.as * e.sy) / det : 0.0;
     const double c = (e.sy - e.as * a) / e.ss, variance = variance_of(r, rows, unknowns, a, c);
-    if (has_slope && fabs(a) > 0.0) effort.accelerating = in_errors(a, variance * e.ss / det);
+    if (has_slope && fabs(a) > 0.0) {
+        effort.accelerating = in_errors(a, variance * e.ss / det);
+        effort.slope = a;
+    }
     if (fabs(c) > 0.0) effort.braking = in_errors(c, variance * (has_slope ? e.aa / det : 1.0 / e.ss));
     effort.share = fmax(-1.0, fmin(1.0, c / sqrt(square)));
     effort.of_all = c; /* for now */
@@ -379,17 +382,16 @@ static bool counts_pole_pairs(const hci_run *run)
 }
 
 /* work: twice the samples. */
-static int way_of(const hci_run *run, double *work)
+static hci_effort effort_of(const hci_run *run, double *work)
 {
     double *iq_A = work, *number = work + run->count;
     for (size_t k = 0; k < run->count; ++k) {
         iq_A[k] = hci_run_dq(run, run->pole_pairs, k).q;
         number[k] = (double)k;
     }
-    const hci_effort effort =
-        hci_effort_find(&(hci_effort_samples){run->time_s ? run->time_s : number, run->speed_rad_per_s, iq_A,
-                                              run->turn_known ? run->theta_m_rad : NULL, run->count});
-    return hci_effort_way(&effort);
+    return hci_effort_find(&(hci_effort_samples){run->time_s ? run->time_s : number, run->speed_rad_per_s,
+                                                 iq_A, run->turn_known ? run->theta_m_rad : NULL,
+                                                 run->count});
 }
 
 hci_status hci_run_effort_set(hci_run *run, hci_note *note)
@@ -399,7 +401,12 @@ hci_status hci_run_effort_set(hci_run *run, hci_note *note)
     if (!tells_iq(run)) return HCI_OK;
     double *work = hci_memory_new(run->count, 2 * sizeof *work);
     if (work == NULL) return hci_note_memory(note, run->name, "%zu samples", run->count);
-    run->current_way = way_of(run, work);
+    const hci_effort effort = effort_of(run, work);
+    run->current_way = hci_effort_way(&effort);
+    if (run->time_s && effort.accelerating > SURE) {
+        run->iq_per_acceleration = effort.slope;
+        run->iq_per_acceleration_error = effort.slope / effort.accelerating;
+    }
     hci_memory_free(work);
     if (run->current_way < 0)
         hci_note_add(&run->remark,

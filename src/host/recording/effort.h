@@ -20,6 +20,7 @@ typedef struct {
  * tells no sign, also + orders 1 and 2 of the mechanical turn, which an arm or a crank makes. */
 typedef struct {
     double accelerating; /* a over its standard error; 0: not told */
+    double slope;        /* a, in the units of i_q and acceleration */
     double braking;      /* c over its standard error; 0: not told */
     double share;        /* c over the rms of i_q in the windows, without these orders, from -1 to 1 */
     double of_all;       /* c over the rms of i_q in all samples, likewise */
@@ -36,9 +37,9 @@ int hci_effort_way(const hci_effort *effort);
 /* Whether the sign is told by what accelerates. */
 bool hci_effort_accelerates(const hci_effort *effort);
 
-/* Sets current_way of a run whose i_q the drive has recorded, or whose phase currents lie along i_q, with a
- * remark where it is -1, and counts_pole_pairs. Rows without time are taken as evenly spaced.
- * HCI_ERROR_MEMORY. O(samples). */
+/* Sets current_way and iq_per_acceleration of a run whose i_q the drive has recorded, or whose phase currents
+ * lie along i_q, with a remark where it is -1, and counts_pole_pairs. Rows without time are taken as evenly
+ * spaced. HCI_ERROR_MEMORY. O(samples). */
 hci_status hci_run_effort_set(hci_run *run, hci_note *note);
 
 #endif

@@ -8,9 +8,11 @@
 #define TENTH     0.1
 #define TOLD      0.1 /* of an inertia, its standard error */
 #define EXPLAINED 0.5 /* of what currents differ by, rms, that an inertia may leave */
+#define SEEN      0.3 /* the same, to tell anything of one that is declared */
+#define SURE      3.0 /* standard errors */
 #define ERRORS    2.0 /* of an acceleration that does not stand out */
 
-enum { MOST_WAYS = 16 };
+enum { MOST_WAYS = 16, LEAST_COORDINATES = 4 };
 
 /* ---- the inertia that makes ways agree ---- */
 
@@ -80,6 +82,24 @@ double hci_balance_inertia(const hci_turn_ways *ways, size_t count, double const
     const double error = sqrt(left / (s.coordinates - 1.0) / s.alpha2);
     if (std_error) *std_error = error;
     return error < TOLD * inertia && left < EXPLAINED * EXPLAINED * s.made2 ? inertia : 0.0;
+}
+
+/* ---- beside an inertia that is declared ---- */
+
+bool hci_balance_bounds(const hci_turn_ways *ways, double constant, double *least_kgm2, double *most_kgm2)
+{
+    way_list l = {.count = 0};
+    difference_sums s = {0.0, 0.0, 0.0, 0.0};
+    add_ways(&l, ways);
+    for (size_t k = 1; k <= l.highest && l.count > 1; ++k)
+        if (moves(&l, k)) add_order(&l, k, constant, &s);
+    if (!(s.product > 0.0) || !(s.coordinates > LEAST_COORDINATES)) return false;
+    const double inertia = s.product / s.alpha2, left = fmax(s.made2 - inertia * s.product, 0.0);
+    const double error = sqrt(left / (s.coordinates - 1.0) / s.alpha2) / inertia;
+    if (!(error < SEEN)) return false;
+    *least_kgm2 = inertia * (1.0 - SURE * error);
+    *most_kgm2 = s.made2 / s.product * (1.0 + SURE * error);
+    return true;
 }
 
 /* ---- without an inertia ---- */

@@ -262,6 +262,42 @@ static void set_limit(const task *t)
         t->run->inertia_limit_kgm2 = limit_kgm2;
 }
 
+#define FAR   1.5  /* times an inertia, by which another one is no error of the torque per ampere */
+#define WIDTH 3.0  /* standard errors */
+#define ROUGH 0.05 /* of an inertia by means over windows, in which a slope is not that at one time */
+
+/* What recordings say of the declared inertia: that it is between these. */
+static void judge_between(const task *t, double least_kgm2, double most_kgm2, const char *by)
+{
+    hci_run *run = t->run;
+    const double declared_kgm2 = t->options->inertia_kgm2;
+    run->least_inertia_kgm2 = least_kgm2;
+    run->most_inertia_kgm2 = most_kgm2;
+    run->denies_inertia = declared_kgm2 > FAR * most_kgm2 || FAR * declared_kgm2 < least_kgm2;
+    if (run->denies_inertia)
+        hci_note_add(&run->remark, "%s an inertia of %.2g to %.2g kg·m², and not the declared %.4g", by,
+                     least_kgm2, most_kgm2, declared_kgm2);
+}
+
+/* Both directions of a slow turn are of one machine. */
+static void judge_by_turns(const task *t)
+{
+    double least_kgm2, most_kgm2;
+    if (!t->has_ways || t->run->is_unsteady || t->run->mean_is_unknown) return;
+    if (hci_balance_bounds(&t->ways, t->options->torque_constant_Nm_per_A, &least_kgm2, &most_kgm2))
+        judge_between(t, least_kgm2, most_kgm2, "its turns forward and back tell");
+}
+
+/* What a current accelerates over many turns. */
+static void judge_by_current(const task *t)
+{
+    const double constant = t->options->torque_constant_Nm_per_A;
+    const double kgm2 = constant * t->run->iq_per_acceleration,
+                 width_kgm2 = ROUGH * kgm2 + WIDTH * constant * t->run->iq_per_acceleration_error;
+    if (constant > 0.0 && kgm2 > 0.0)
+        judge_between(t, kgm2 - width_kgm2, kgm2 + width_kgm2, "what its current accelerates tells");
+}
+
 /* Takes out what accelerates where that is known; of: what the turns tell. */
 static hci_status settle(const task *t, inertia of)
 {
@@ -273,7 +309,9 @@ static hci_status settle(const task *t, inertia of)
         if (t->accelerates || t->has_ways)
             hci_note_add(remark, t->has_ways ? "acceleration by the orders of the angle over time"
                                              : "acceleration by the slope of the speed");
-        return hold(t);
+        const hci_status held = hold(t);
+        if (!held) judge_by_turns(t);
+        return held;
     }
     if (!t->has_ways) return hold(t);
     if (of.kgm2 > 0.0) {
@@ -315,6 +353,7 @@ static hci_status free_or_held(task *t)
     }
     if (t->accelerates) {
         run->torque_source = HCI_TORQUE_INERTIA;
+        judge_by_current(t);
         hci_note_add(&run->remark, "no torque_Nm: as of a free shaft it is inertia x acceleration");
         if (run->torque_reach < HCI_USUAL_ORDER)
             hci_note_add(&run->remark,

@@ -39,6 +39,7 @@ static void test_a_motor_accelerates_with_its_current(void)
         const hci_effort effort = effort_of(10.0, 8.0, 0.02 * sign, 0.0, 0.0, 0.05);
         TEST_ASSERT_EQUAL(sign, hci_effort_way(&effort));
         TEST_ASSERT_TRUE(hci_effort_accelerates(&effort));
+        TEST_ASSERT_DOUBLE_WITHIN(0.001, 0.02 * sign, effort.slope);
         TEST_ASSERT_FALSE(effort.has_both_ways);
     }
 }

@@ -124,6 +124,53 @@ static void test_forward_and_back_tell_the_inertia(void)
     TEST_ASSERT_FALSE(run.needs_inertia);
 }
 
+static void inertia_is(bool denied)
+{
+    TEST_ASSERT_TRUE(run.least_inertia_kgm2 < INERTIA && run.most_inertia_kgm2 > INERTIA);
+    TEST_ASSERT_TRUE(run.most_inertia_kgm2 < 1.3 * run.least_inertia_kgm2);
+    TEST_ASSERT_EQUAL(denied, run.denies_inertia);
+    TEST_ASSERT_EQUAL(denied, strstr(run.remark.text, "and not the declared") != NULL);
+    hci_run_release(&run);
+}
+
+/* A declared one that is ten times too large or too small makes the directions disagree; one that is a fifth
+ * off may be an error of the torque per ampere; one direction tells nothing. */
+static void test_turns_deny_a_wrong_inertia(void)
+{
+    for (int k = 0; k < 4; ++k) {
+        read_ways(FAST, 2, INERTIA * (double[]){1.0, 1.2, 10.0, 0.1}[k]);
+        inertia_is(k > 1);
+    }
+    read_ways(FAST, 1, 10.0 * INERTIA);
+    TEST_ASSERT_FALSE(run.denies_inertia || run.least_inertia_kgm2 > 0.0);
+}
+
+/* A free shaft that its current hastens and slows down, beside friction. */
+static void read_free(double inertia)
+{
+    const hci_run_options options = {
+        .pole_pairs = P, .inertia_kgm2 = inertia, .torque_constant_Nm_per_A = CONSTANT};
+    FILE *file = fopen(path, "w");
+    TEST_ASSERT_NOT_NULL(file);
+    fprintf(file, "time_s,theta_m_rad,speed_rad_per_s,iq_A\n");
+    for (int k = 0; k < N; ++k) {
+        const double t = STEP_S * k, wave = 0.01 * sin(700.0 * t);
+        fprintf(file, "%.4f,%.9f,%.9f,%.9f\n", t, 50.0 * t + 30.0 * (1.0 - cos(t)), 50.0 + 30.0 * sin(t),
+                (INERTIA * 30.0 * cos(t) + FRICTION_Nm) / CONSTANT + wave);
+    }
+    fclose(file);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_read(path, &options, &run, &note), note.text);
+    TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, run.torque_source);
+}
+
+static void test_a_free_shaft_denies_a_wrong_inertia(void)
+{
+    for (int k = 0; k < 4; ++k) {
+        read_free(INERTIA * (double[]){1.0, 1.2, 10.0, 0.1}[k]);
+        inertia_is(k > 1);
+    }
+}
+
 /* One way, or two that are alike in everything: nothing tells what the inertia answers. */
 static void test_what_is_not_told_is_not_given(void)
 {
@@ -210,6 +257,8 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_the_inertia_that_is_given_takes_its_part_out);
     RUN_TEST(test_forward_and_back_tell_the_inertia);
+    RUN_TEST(test_turns_deny_a_wrong_inertia);
+    RUN_TEST(test_a_free_shaft_denies_a_wrong_inertia);
     RUN_TEST(test_what_is_not_told_is_not_given);
     RUN_TEST(test_a_quiet_turn_is_held_without_it);
     RUN_TEST(test_a_shaft_that_goes_back_is_not_taken_by_orders);

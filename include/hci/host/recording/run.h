@@ -59,6 +59,14 @@ typedef struct {
     double turns_inertia_kgm2; /* that makes the torques of slow turns agree, taken out, of this or of other
                                 * recordings of its list; 0: none was found */
     double turns_inertia_error_kgm2; /* standard error of that, of how the turns agree */
+    double iq_per_acceleration, iq_per_acceleration_error; /* of a shaft without a torque sensor: A by which
+                                                            * i_q is larger for each rad/s², and its standard
+                                                            * error; 0: the run does not tell it */
+    double least_inertia_kgm2,
+        most_inertia_kgm2; /* where the inertia is declared: between these a slow turn tells it
+                            * by its two directions, a free shaft by what its current
+                            * accelerates, by the torque constant; 0: they do not */
+    bool denies_inertia;   /* the declared one is far from that: the torques are wrong by what accelerates */
     double inertia_limit_kgm2; /* a slow turn against a load whose inertia is not known: from here on it takes
                                 * a tenth or more of the torque that the current makes; 0: it does not matter,
                                 * or is known */
