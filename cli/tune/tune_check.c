@@ -296,6 +296,18 @@ static void judge_zero(cli_tuning *t, const hci_check *c)
     t->turned_error_deg = error_deg;
 }
 
+/* What does not agree as it is declared; beside a slip that a number of the sheet would be as well, and else
+ * where nothing mends it. */
+static void judge_sheet(cli_tuning *t, const hci_check *c)
+{
+    for (size_t k = 0; k < c->evidences; ++k) {
+        const hci_check_evidence *e = &c->evidence[k];
+        if (strcmp(e->name, "torque_size") != 0) continue;
+        if (e->state == HCI_CHECK_UNMENDED || (t->has_slip && e->state != HCI_CHECK_AGREES))
+            t->torque_to_sheet = torque_ratio(c);
+    }
+}
+
 static void judge_check(cli_tuning *t, const hci_check *c)
 {
     judge_zero(t, c);
@@ -306,6 +318,7 @@ static void judge_check(cli_tuning *t, const hci_check *c)
     judge_torque_way(t);
     judge_ambiguous(t, c);
     judge_current(t);
+    judge_sheet(t, c);
     for (size_t k = 0; k < c->evidences && c->verdict == HCI_CHECK_NOT_UNDERSTOOD; ++k)
         if (c->evidence[k].state == HCI_CHECK_UNMENDED)
             *(is_of_angle(c->evidence[k].name) ? &t->has_misfit : &t->has_doubt) = true;

@@ -45,10 +45,12 @@ static void say_errors(cli_tuning *t)
 static bool is_sound(const cli_tuning *t)
 {
     double offset_deg;
-    return !t->has_doubt && !cli_tune_off_iq(t, &offset_deg) && !(cli_tune_strange_rpm(t) > 0.0) &&
-           !cli_tune_denied_inertia(t) && !cli_tune_is_short(t) && !(t->once_a_turn_Nm > 0.0) &&
-           cli_tune_clipped(t) == 0 && cli_tune_torque_clipped(t) == 0 && t->size == CLI_TUNE_USUAL &&
-           !(t->drives_Nm > 0.0) && !(fabs(t->turned_deg) > 0.0) && !(fabs(t->open_turn_deg) > 0.0);
+    char words[512];
+    return !cli_tune_say_sheet(t, words, sizeof words) && !t->has_doubt && !cli_tune_off_iq(t, &offset_deg) &&
+           !(cli_tune_strange_rpm(t) > 0.0) && !cli_tune_denied_inertia(t) && !cli_tune_is_short(t) &&
+           !(t->once_a_turn_Nm > 0.0) && cli_tune_clipped(t) == 0 && cli_tune_torque_clipped(t) == 0 &&
+           t->size == CLI_TUNE_USUAL && !(t->drives_Nm > 0.0) && !(fabs(t->turned_deg) > 0.0) &&
+           !(fabs(t->open_turn_deg) > 0.0);
 }
 
 /* Whether the table is what was wanted, of a model that can be believed. */

@@ -580,12 +580,19 @@ static void say_why_not_solved(cli_tuning *t)
                  strchr(column, '=') + 1, column);
 }
 
+static void append_of_sheet(cli_tuning *t)
+{
+    char words[512];
+    if (cli_tune_say_sheet(t, words, sizeof words)) append(t, "; %s", words);
+}
+
 void cli_tune_set_heading(cli_tuning *t)
 {
     if (t->is_solved)
         say_table(t);
     else
         say_why_not_solved(t);
+    append_of_sheet(t);
     append_of_table(t);
     append_of_torque(t);
     append_of_machine(t);

@@ -74,7 +74,9 @@ typedef struct {
     double mains_order,
         mains_Hz;   /* an order found that is a multiple of 50 or 60 Hz at the one speed; 0: none */
     double fast_Hz; /* the fastest of the larger orders by a torque sensor at one speed; 0: all are slow */
-    bool has_doubt; /* check does not understand something else */
+    double torque_to_sheet; /* torques of the recordings to those of the declared back-EMF, which check does
+                             * not understand; 0: it does */
+    bool has_doubt;         /* check does not understand something else */
     bool has_alias; /* samples lie too far apart for the order of slots and poles, which shows as another one
                      */
     bool tells_no_order;  /* not even an electrical turn is covered */

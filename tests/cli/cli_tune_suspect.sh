@@ -276,6 +276,23 @@ says 'a convention is broken: .*(--kv is 10 times too large|whose point is at an
 run 1 tune none.csv two.csv three.csv --pole-pairs 4 --torque-constant 0.045 -o point
 says 'a convention is broken: .*(--torque-constant is 10 times too small|whose point is at another place)'
 
+# a figure of the sheet with another unit: the first line has the number that fits, by torques or by what motors have
+run 1 tune none.csv two.csv three.csv --pole-pairs 4 --kv 38.5 -o sheet
+says '^[a-z ,]*: .*; the torques of the logs are 2\.0?9?[0-9]* times those of --kv 38\.5, and --volt-per-krpm 38\.5 fits'
+check "not in summary.json" grep -q 'volt-per-krpm 38\.5 fits' sheet/summary.json
+run 1 tune none.csv two.csv three.csv --pole-pairs 4 --torque-constant 450 -o sheet
+says 'and --torque-constant 0\.45 fits'
+for given in '--flux 14' '--kv 0.1' '--torque-constant 150'; do
+    run 1 tune even.csv --pole-pairs 7 $given --torque 0.2 -o sheet
+    number=${given#* }
+    meant=$(awk -v n="$number" 'BEGIN { print n < 1 ? 1000 * n : n / 1000 }')
+    says "^tuned, with something left open: .*: is ${given% *} $meant meant, in another unit by a factor of 1000"
+done
+run 1 tune even.csv --pole-pairs 7 --kv 100 --rated-current 5000 --torque 0.2 -o sheet
+says 'is it in mA .--rated-current 5.'
+run 1 tune even.csv --pole-pairs 7 --kv 100 --resistance 800 --torque 0.2 -o sheet
+says 'is it in mΩ .--resistance 0\.8.'
+
 # Anti-cogging alone
 run 0 tune right.csv --pole-pairs 4 --kv 18.38 --slots 12 --torque 0 -o alone
 check "no table of anti-cogging alone" [ -e alone/table/tuned.c ]
