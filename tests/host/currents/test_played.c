@@ -87,6 +87,20 @@ static void test_ripples(void)
     }
 }
 
+/* Whatever folder it is; of no folder nothing is judged. */
+static void test_names_of_the_folder(void)
+{
+    record(0.0, 1.0, 3, 0.01, 0.002);
+    strcpy(solved.folder, "x");
+    hci_played p = judge();
+    TEST_ASSERT_EQUAL_INT(HCI_PLAYED_AS_SOLVED, p.currents);
+    TEST_ASSERT_EQUAL_INT(HCI_PROMISE_KEPT, p.promise);
+    strcpy(solved.folder, "");
+    p = judge();
+    TEST_ASSERT_EQUAL_INT(HCI_PROMISE_NOT_JUDGED, p.promise);
+    TEST_ASSERT_TRUE(isnan(p.ripple_Nm));
+}
+
 /* However smooth the torque is: the promise is of other currents. */
 static void test_other_currents(void)
 {
@@ -147,6 +161,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_ripples);
+    RUN_TEST(test_names_of_the_folder);
     RUN_TEST(test_other_currents);
     RUN_TEST(test_not_known);
     RUN_TEST(test_turns);

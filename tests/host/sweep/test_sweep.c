@@ -358,6 +358,30 @@ static void test_points_are_read_as_they_were_written(void)
     hci_grid_release(&two);
 }
 
+/* A reason that is too long ends before the character that it would be cut in, whichever byte of it comes
+ * last. */
+static void test_long_reasons_end_between_characters(void)
+{
+    static const char *const MARK[] = {"\xE2\x80\x99", "\xC3\xA9", "\xF0\x9F\x98\x80", "\xE2\x88\x9A"};
+    hci_grid one;
+    begin(&one);
+    for (size_t j = 0; j < sizeof MARK / sizeof *MARK; ++j)
+        for (size_t before = HCI_GRID_REASON_SIZE - 6; before < HCI_GRID_REASON_SIZE + 2; ++before) {
+            char reason[HCI_GRID_REASON_SIZE + 16] = "";
+            memset(reason, 'x', before);
+            strcpy(reason + before, MARK[j]);
+            hci_grid_fail(&one.plan.point[0], reason, &one.row[0]);
+            const size_t all = strlen(reason), kept = strlen(one.row[0].reason);
+            const bool fits = all < HCI_GRID_REASON_SIZE;
+            TEST_ASSERT_EQUAL_UINT64(fits                            ? all
+                                     : before < HCI_GRID_REASON_SIZE ? before
+                                                                     : HCI_GRID_REASON_SIZE - 1,
+                                     kept);
+            TEST_ASSERT_EQUAL_MEMORY(reason, one.row[0].reason, kept);
+        }
+    hci_grid_release(&one);
+}
+
 /* In place of the number of the first row. */
 static void renumber(const char *number)
 {
@@ -427,6 +451,7 @@ int main(void)
     RUN_TEST(test_a_point_of_a_map_is_what_solve_finds);
     RUN_TEST(test_the_order_of_a_map);
     RUN_TEST(test_points_are_read_as_they_were_written);
+    RUN_TEST(test_long_reasons_end_between_characters);
     RUN_TEST(test_points_of_other_numbers_are_refused);
     RUN_TEST(test_limits_are_said_phase_by_phase);
     RUN_TEST(test_points_of_other_inputs_are_refused);
