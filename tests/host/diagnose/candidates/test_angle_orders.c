@@ -113,6 +113,18 @@ static void test_what_load_alone_shows(void)
         TEST_ASSERT_TRUE(fabs(found.order[k] - 6.0) > 0.1);
 }
 
+/* A ripple that is the same with any current asks for an error that the torque of the current does not have. */
+static void test_what_the_teeth_alone_show(void)
+{
+    for (int order = 1; order < 12; ++order) {
+        setUp();
+        for (size_t k = 0; k < COUNT; ++k)
+            residual_Nm[k] += 0.01 * sin(order * P * sample[k].reading.theta_m_rad + 0.2 * order);
+        find();
+        TEST_ASSERT_EQUAL_UINT64(0, found.count);
+    }
+}
+
 /* Iron that saturates asks each run for another error, where no cogging torque asks for any. */
 static void test_what_runs_do_not_share(void)
 {
@@ -149,6 +161,7 @@ int main(void)
     RUN_TEST(test_errors_between_lines);
     RUN_TEST(test_noise_is_no_error);
     RUN_TEST(test_what_load_alone_shows);
+    RUN_TEST(test_what_the_teeth_alone_show);
     RUN_TEST(test_what_runs_do_not_share);
     RUN_TEST(test_runs_that_tell_nothing);
     return UNITY_END();
