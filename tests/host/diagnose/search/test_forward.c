@@ -56,6 +56,10 @@ static void test_the_true_effect_comes_in_alone(void)
     TEST_ASSERT_EQUAL_UINT64(1, hci_candidates_types_in(&model.candidates));
     const hci_effect_term *a = term_in(&model.candidates, "current_offset", "a", 0.0);
     TEST_ASSERT_DOUBLE_WITHIN(3.0 * a->std_error, 0.3, a->value);
+    for (size_t r = 0; r < hci_candidate_types(); ++r) { /* it is remembered by how much that was better */
+        const bool is_it = hci_candidate_type(r) == hci_effect_type_find("current_offset");
+        TEST_ASSERT_TRUE(is_it ? search.came_with[r] > 100.0 : search.came_with[r] == 0.0);
+    }
     TEST_ASSERT_FALSE(step_forward()); /* and nothing beside it */
 }
 
