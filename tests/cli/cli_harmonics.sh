@@ -126,6 +126,8 @@ sed '1s/theta_e_rad/theta/' "$work/shifted.csv" | cut -d , -f 1,2,4-7 >"$work/th
 refused 3 'theta.csv:1: column 2 `theta`: found an angle that may be mechanical or electrical' "$work/theta.csv" --quantity back_emf --pole-pairs 4
 refused 3 'back_emf.csv:3: found a table of orders.*expected a recording' "$source_dir/data/machine_a/back_emf.csv" --quantity back_emf --pole-pairs 4
 printf 'theta_m_deg,iq_A,torque_Nm\n0,1,0\n1,2,0\n' >"$work/held.csv"
+awk 'BEGIN { print "time_s,theta_e_rad,ia_A,ib_A,ic_A,torque_Nm"; for (k = 0; k < 200; k++) print k / 1000 "," k / 10 ",1,-0.5,-0.5,1" }' >"$work/typed.csv"
+refused 3 'typed.csv: found the same torque in every row, typed .*leave the column out' "$work/typed.csv" --quantity cogging --pole-pairs 2
 refused 3 'add --torque-constant' "$work/held.csv" --quantity cogging --pole-pairs 2
 refused 3 'do not go round' "$work/held.csv" --quantity cogging --pole-pairs 2 --torque-constant 1
 

@@ -24,7 +24,7 @@ def machine(name, emf=(), cogging=()):
 
 
 def recording(path, samples):
-    write(path, "time_s,theta_e_rad,ia_A,ib_A,ic_A,torque_Nm", (f"{k * 0.001:.3f},{k * 0.1:.1f},1,-0.5,-0.5,1" for k in range(samples)))
+    write(path, "time_s,theta_e_rad,ia_A,ib_A,ic_A,torque_Nm", (f"{k * 0.001:.3f},{k * 0.1:.1f},1,-0.5,-0.5,{1 + k % 7 / 10:.1f}" for k in range(samples)))
 
 
 def orders(count, rest):

@@ -19,6 +19,22 @@ static void cogging_values(const hci_waveform_task *t, double *value)
     }
 }
 
+static hci_status refuse_no_torque(const hci_waveform_task *t)
+{
+    if (t->run->torque_is_typed)
+        return hci_waveform_refuse(t, "the same torque in every row, typed or of a sensor that stands still",
+                                   "torque_Nm as it was measured",
+                                   "record it, or leave the column out, and where the current held the shaft "
+                                   "or turned it slowly say "
+                                   "--holding --torque-constant NM_PER_A (1 to get amperes)");
+    return hci_waveform_refuse(
+        t, "no torque", "torque_Nm",
+        hci_waveform_current_rms(t->run) > 0.0
+            ? "add the column, or where the current held the shaft or turned it slowly say "
+              "--holding --torque-constant NM_PER_A (1 to get amperes)"
+            : "add the column, or say which it is: --column torque_Nm=COLUMN");
+}
+
 static hci_status check_cogging(const hci_waveform_task *t)
 {
     const bool constant = !isnan(t->options->torque_constant_Nm_per_A);
@@ -29,13 +45,7 @@ static hci_status check_cogging(const hci_waveform_task *t)
         return hci_waveform_refuse(
             t, "a speed that varies with the angle so fast that the inertia may answer the cogging torque",
             "a current that does", "give --inertia, which takes out what accelerates, or record more slowly");
-    if (t->run->torque_Nm == NULL)
-        return hci_waveform_refuse(
-            t, "no torque", "torque_Nm",
-            hci_waveform_current_rms(t->run) > 0.0
-                ? "add the column, or where the current held the shaft or turned it slowly say "
-                  "--holding --torque-constant NM_PER_A (1 to get amperes)"
-                : "add the column, or say which it is: --column torque_Nm=COLUMN");
+    if (t->run->torque_Nm == NULL) return refuse_no_torque(t);
     if (t->run->torque_source == HCI_TORQUE_HOLDING && !constant)
         return hci_waveform_refuse(t, "a torque of 0 throughout, as of a rotor held by its current",
                                    "the torque constant to make torque of that current",
