@@ -1,6 +1,7 @@
 /* Sets of output files: whole or not at all, whatever goes wrong on the way. */
 #include "hci/host/base/output.h"
 
+#include <fcntl.h>
 #include <float.h>
 #include <math.h>
 #include <signal.h>
@@ -355,6 +356,37 @@ static void test_sets_appear_together_or_not_at_all(void)
     assert_holds(files_path("m/b.csv"), "new\n");
 }
 
+static char journal_path[256];
+static int renamed, journal_stood;
+
+/* In place of that of the C library: whether a journal stands while a file of a set takes its place. */
+int rename(const char *from, const char *to)
+{
+    if (strcmp(to + strlen(to) - 4, ".csv") == 0) {
+        renamed++;
+        journal_stood += access(journal_path, F_OK) == 0;
+    }
+    return renameat(AT_FDCWD, from, AT_FDCWD, to);
+}
+
+/* Two files in two folders need the journal as two files in one do: between both a process may be killed. */
+static void test_sets_of_one_file_have_a_journal(void)
+{
+    hci_output *set[2];
+    TEST_ASSERT_EQUAL(0, mkdir(files_path("m"), 0777));
+    files_write(files_path("a.csv"), "old\n");
+    files_write(files_path("m/b.csv"), "old\n");
+    snprintf(journal_path, sizeof journal_path, "%s/.hci-journal", files_root);
+    set[1] = set_of(files_root, "a.csv");
+    set[0] = set_of(files_path("m"), "b.csv");
+    renamed = journal_stood = 0;
+    TEST_ASSERT_EQUAL(HCI_OK, hci_output_commit_together(set, 2, NULL));
+    TEST_ASSERT_EQUAL(2, renamed);
+    TEST_ASSERT_EQUAL(2, journal_stood);
+    assert_holds(files_path("m/b.csv"), "new\n");
+    TEST_ASSERT_EQUAL(2, files_count(files_root)); /* and is gone */
+}
+
 /* What had no memory may be missing in it. */
 static void test_a_set_for_which_memory_was_short_is_not_written(void)
 {
@@ -593,6 +625,7 @@ int main(void)
     RUN_TEST(test_a_set_for_which_memory_was_short_is_not_written);
     RUN_TEST(test_a_set_with_a_folder_within_is_ended);
     RUN_TEST(test_sets_appear_together_or_not_at_all);
+    RUN_TEST(test_sets_of_one_file_have_a_journal);
     RUN_TEST(test_a_journal_that_is_no_plain_file_is_left);
     RUN_TEST(test_folders_that_cannot_be_are_refused);
     RUN_TEST(test_only_plain_files_are_replaced);
