@@ -1,11 +1,13 @@
 #include "host/recording/slow_turn.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "hci/host/base/note.h"
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
+#include "host/numeric/noise.h"
 #include "host/numeric/statistics.h"
 #include "host/recording/rotor_frame.h"
 
@@ -20,7 +22,7 @@
 
 #define NEAR_RAD (2.0 * HCI_PI / 48.0) /* electrical: four samples in a period of order 12 */
 
-enum { LEAST = 16 };
+enum { LEAST = 16, ENOUGH = 100 };
 
 /* rms about the mean of torque_constant·i_q. */
 static double rms_of_current(const hci_run *run, int pole_pairs, double constant)
@@ -419,5 +421,47 @@ bool hci_settled_rows_keep(hci_run *run, int pole_pairs)
         keep(run, x.out);
     }
     hci_memory_free(x.out);
+    return true;
+}
+
+/* ---- a free shaft that stands ---- */
+
+#define AT_REST 8.0 /* times the noise of the angle, within which a shaft stands */
+
+/* Of `count` samples from one end in steps of `step`: those that stand where the first one does. */
+static size_t standing(const double *x, size_t count, ptrdiff_t step, double least_rad)
+{
+    size_t k = 0;
+    while (k < count && fabs(x[step * (ptrdiff_t)k] - x[0]) <= least_rad)
+        ++k;
+    return k;
+}
+
+/* As long as the slopes of the samples that are left need them, rows at rest stay beside those that move. */
+static size_t beyond_slopes(const hci_run *run, size_t standing)
+{
+    const size_t needed = run->torque_window + run->speed_window;
+    return standing > needed + LEAST ? standing - needed : 0;
+}
+
+bool hci_rest_at_ends_leave(hci_run *run)
+{
+    const size_t n = run->count;
+    if (run->theta_m_rad == NULL || n < LEAST) return true;
+    const double least_rad = AT_REST * hci_noise_of_neighbours(run->theta_m_rad, n);
+    const size_t before = standing(run->theta_m_rad, n, 1, least_rad);
+    if (before == n) return true;
+    const size_t after = standing(run->theta_m_rad + n - 1, n, -1, least_rad);
+    const size_t first = beyond_slopes(run, before), last = beyond_slopes(run, after);
+    if (first + last == 0 || first + last + ENOUGH > n) return true;
+    bool *out = hci_memory_new(n, sizeof *out);
+    if (out == NULL) return false;
+    for (size_t k = 0; k < n; ++k)
+        out[k] = k < first || k >= n - last;
+    keep(run, out);
+    hci_note_add(&run->remark,
+                 "%zu of %zu rows, in which the shaft stands before or after it runs, are not used",
+                 first + last, n);
+    hci_memory_free(out);
     return true;
 }

@@ -360,7 +360,7 @@ static hci_status free_or_held(task *t)
                          "its slopes show next to nothing of a torque of an electrical order above %.3g",
                          run->torque_reach);
         if (hci_is_slow(run, run->pole_pairs)) judge_stops(run);
-        return HCI_OK;
+        return hci_rest_at_ends_leave(run) ? HCI_OK : memory_error(t);
     }
     hci_memory_free(run->torque_Nm);
     run->torque_Nm = NULL;

@@ -258,6 +258,27 @@ static void test_a_turn_forward_and_back_is_found(void)
     TEST_ASSERT_EQUAL(HCI_TORQUE_NONE, run.torque_source);
 }
 
+/* It waits for a second, runs down for another, and stands for the rest: of what is left it moves nearly all
+ * the time, and the slope of its speed is what it was. */
+static void test_a_free_shaft_has_no_rows_at_rest(void)
+{
+    FILE *file = fopen(path, "w");
+    TEST_ASSERT_NOT_NULL(file);
+    fprintf(file, "time_s,theta_m_rad,speed_rad_per_s\n");
+    for (size_t k = 0; k < N; ++k) {
+        const double t = STEP_S * (double)k, left = t < 1.0 ? 0.0 : t < 2.0 ? 2.0 - t : 0.0;
+        fprintf(file, "%.4f,%.9f,%.9f\n", t, t < 1.0 ? 0.0 : 15.0 * (1.0 - left * left), 30.0 * left);
+    }
+    fclose(file);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_read(path, &KNOWN, &run, &note), note.text);
+    TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, run.torque_source);
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 1.5, run.time_s[run.count / 2]);
+    TEST_ASSERT_TRUE(run.time_s[0] > 0.8 && run.time_s[run.count - 1] < 2.2);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3 * 30.0 * KNOWN.inertia_kgm2, -30.0 * KNOWN.inertia_kgm2,
+                              run.torque_Nm[run.count / 2]);
+    text_has("rows, in which the shaft stands before or after it runs, are not used", run.remark.text);
+}
+
 /* i_q = (T + J α) / k with α = −(12 ω)² a sin 12 ω t: what is left is T, within what slopes smooth away. */
 static void test_what_accelerates_is_taken_out(void)
 {
@@ -288,6 +309,7 @@ int main(void)
     RUN_TEST(test_a_fast_shaft_under_load_is_none);
     RUN_TEST(test_a_load_is_more_than_a_current_varies_by);
     RUN_TEST(test_a_coast_with_a_long_rest_is_free);
+    RUN_TEST(test_a_free_shaft_has_no_rows_at_rest);
     RUN_TEST(test_a_shaft_that_is_accelerated_is_none);
     RUN_TEST(test_it_takes_inertia_and_torque_constant);
     RUN_TEST(test_it_can_be_said);
