@@ -248,25 +248,19 @@ static double pairs_try(part *p, const selecting *g)
     return most;
 }
 
-static size_t count_of(const bool *in, size_t candidates)
-{
-    size_t count = 0;
-    for (size_t k = 0; k < candidates; ++k)
-        count += in[k];
-    return count;
-}
-
 /* Orders that came in one by one may be many that together imitate a few, where currents of one shape make
  * much the same of all. Returns the fall of the score. */
 static double imitators_replace(selecting *g, double fall)
 {
     part p;
-    const size_t count = count_of(g->in, g->choice->list->count);
+    size_t count = 0;
+    for (size_t k = 0; k < g->choice->list->count; ++k)
+        count += g->in[k];
     if (count < LEAST_MANY) return fall;
     part_make(&p, g);
     if (p.list.count < count + 1) return fall;
     const double few = pairs_try(&p, g);
-    if (!(few > fall + HCI_AS_GOOD) || count_of(p.best, p.list.count) >= count) return fall;
+    if (!(few > fall + HCI_AS_GOOD)) return fall;
     memset(g->in, 0, g->choice->list->count * sizeof *g->in);
     for (size_t k = 0; k < p.list.count; ++k)
         g->in[p.from[k]] = p.best[k];
