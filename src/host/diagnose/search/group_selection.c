@@ -230,6 +230,15 @@ static void part_make(part *p, const selecting *g)
     part_fill(p, g);
 }
 
+/* Terms of those that are chosen. */
+static size_t terms_of(const hci_candidates *list, const bool *in)
+{
+    size_t terms = 0;
+    for (size_t k = 0; k < list->count; ++k)
+        terms += in[k] ? list->candidate[k].count : 0;
+    return terms;
+}
+
 /* What begins with each two of them; the best in p->best. Returns the fall of the score of that. */
 static double pairs_try(part *p, const selecting *g)
 {
@@ -249,7 +258,7 @@ static double pairs_try(part *p, const selecting *g)
 }
 
 /* Orders that came in one by one may be many that together imitate a few, where currents of one shape make
- * much the same of all. Returns the fall of the score. */
+ * much the same of all. As many others in their place are no fewer. Returns the fall of the score. */
 static double imitators_replace(selecting *g, double fall)
 {
     part p;
@@ -260,7 +269,8 @@ static double imitators_replace(selecting *g, double fall)
     part_make(&p, g);
     if (p.list.count < count + 1) return fall;
     const double few = pairs_try(&p, g);
-    if (!(few > fall + HCI_AS_GOOD)) return fall;
+    if (!(few > fall + HCI_AS_GOOD) || terms_of(&p.list, p.best) >= terms_of(g->choice->list, g->in))
+        return fall;
     memset(g->in, 0, g->choice->list->count * sizeof *g->in);
     for (size_t k = 0; k < p.list.count; ++k)
         g->in[p.from[k]] = p.best[k];
