@@ -44,12 +44,31 @@ enum { MOST_ORDER = 60, MOST_LOW_ORDER = 24 };
 
 /* Saliency and cross-coupling of the mean; a rotor that looks alike both ways round has cos for dd and qq and
  * sin for dq. */
+/* Where hardly any current flowed along d, noise and errors of the angle are all that there is of it, and
+ * take any saliency that suits. Of a rotor with magnets I_0 makes a few times their flux at most. */
+#define HARDLY        0.05 /* of the current */
+#define EXPECTED_FLUX 3.0
+
+/* 0: any. */
+static double expected_H(const hci_effect_survey *survey)
+{
+    const hci_machine *m = survey->machine;
+    double square = 0.0;
+    for (size_t k = 0; k < m->back_emf_count; ++k)
+        if (m->back_emf[k].order == 1.0)
+            square +=
+                m->back_emf[k].sine * m->back_emf[k].sine + m->back_emf[k].cosine * m->back_emf[k].cosine;
+    return survey->along_d_A < HARDLY * survey->current_A && survey->reference_current_A > 0.0
+               ? EXPECTED_FLUX * sqrt(square) / (m->pole_pairs * survey->reference_current_A)
+               : 0.0;
+}
+
 static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
 {
     static const size_t EVEN[] = {DD + 1, QQ + 1, DQ}, ODD[] = {DD, QQ, DQ + 1};
     const int most = survey->richness > 0 ? MOST_ORDER : MOST_LOW_ORDER;
-    hci_effect_propose(to, DD + 1, 1, 0.0, 1.0, 0.0);
-    hci_effect_propose(to, DQ + 1, 1, 0.0, 4.0, 0.0);
+    hci_effect_propose(to, DD + 1, 1, 0.0, 1.0, expected_H(survey));
+    hci_effect_propose(to, DQ + 1, 1, 0.0, 4.0, expected_H(survey));
     for (int n = 2; n <= most; n += n == 2 ? 4 : 6)
         for (int k = 0; k < 3; ++k) {
             hci_effect_propose(to, EVEN[k], 1, n, n == 2 ? UNSYMMETRIC : USUAL, 0.0);

@@ -273,6 +273,7 @@ static void test_harmonics_of_the_back_emf(void)
 static void test_orders_of_reluctance(void)
 {
     hci_effect_survey s = recordings();
+    s.along_d_A = s.current_A;
     for (s.richness = 0; s.richness < 2; ++s.richness) {
         size_t k = 0;
         count = 0;
@@ -290,6 +291,24 @@ static void test_orders_of_reluctance(void)
         }
         TEST_ASSERT_EQUAL_UINT64(k, count);
     }
+}
+
+/* Where no run had an i_d worth the name, what noise makes of it takes no saliency of many times the magnets'
+ * flux: three of them are expected at I_0. With an i_d any is. */
+static void test_a_saliency_without_an_i_d(void)
+{
+    hci_effect_survey s = recordings();
+    double fundamental = 0.0;
+    for (size_t k = 0; k < MACHINE.back_emf_count; ++k)
+        if (MACHINE.back_emf[k].order == 1.0)
+            fundamental = hypot(MACHINE.back_emf[k].sine, MACHINE.back_emf[k].cosine);
+    s.along_d_A = 0.01 * s.current_A;
+    count = 0;
+    hci_effect_type_find("reluctance")->propose(&s, &TO);
+    const double expected_H = 3.0 * fundamental / (MACHINE.pole_pairs * s.reference_current_A);
+    takes("reluctance", 0, (named){"dd_cosine", 1, 0.0, 1.0, expected_H});
+    takes("reluctance", 1, (named){"dq_cosine", 1, 0.0, 4.0, expected_H});
+    takes("reluctance", 2, (named){"dd_cosine", 1, 2.0, 60.0, 0.0});
 }
 
 /* Powers d^a q^b and their waves in the order of the list: degree by degree, b rising. */
@@ -618,6 +637,7 @@ int main(void)
     RUN_TEST(test_what_cannot_be_seen);
     RUN_TEST(test_harmonics_of_the_back_emf);
     RUN_TEST(test_orders_of_reluctance);
+    RUN_TEST(test_a_saliency_without_an_i_d);
     RUN_TEST(test_powers_of_saturation);
     RUN_TEST(test_series_of_the_coenergy);
     RUN_TEST(test_ends_of_the_series);

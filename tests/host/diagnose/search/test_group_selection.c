@@ -298,7 +298,7 @@ static void blocks_record(double per_noise)
     normal.square = 0.0;
     for (size_t k = 0; k < BLOCK_ROWS; ++k) {
         const double y =
-            per_noise * (0.06 * block_torque(1, k) - 0.03 * block_torque(2, k) + 0.012 * block_torque(3, k));
+            per_noise * (0.06 * block_torque(1, k) + 0.03 * block_torque(2, k) - 0.015 * block_torque(3, k));
         normal.square += y * y;
         for (size_t i = 0; i < normal.n; ++i) {
             normal.moment[i] += per_noise * block_torque(i, k) * y;
@@ -309,13 +309,13 @@ static void blocks_record(double per_noise)
     }
 }
 
-/* Currents in blocks make much the same of all orders: one by one 1, 5 and 13 come in, which leave a little;
- * the three that make all are found through one that brings less than its price at first. */
+/* Currents in blocks make much the same of all orders: one by one 1, 5, 13 and 19 come in; the three that
+ * make all are fewer. */
 static void test_a_few_in_place_of_others_that_imitate_them(void)
 {
     for (int n = 0; n < BLOCK_ORDERS; ++n)
         offer("back_emf", 1, BLOCK_ORDER[n], log((double)BLOCK_ROWS));
-    blocks_record(300.0);
+    blocks_record(1000.0);
     choose_of("back_emf", "back_emf");
     TEST_ASSERT_TRUE(in[1] && in[2] && in[3]);
     TEST_ASSERT_EQUAL_UINT64(3, chosen());
