@@ -293,6 +293,25 @@ says 'is it in mA .--rated-current 5.'
 run 1 tune even.csv --pole-pairs 7 --kv 100 --resistance 800 --torque 0.2 -o sheet
 says 'is it in mΩ .--resistance 0\.8.'
 
+# what is no log: a page, JSON, C, and currents that were calculated
+run 1 tune none.csv two.csv three.csv --pole-pairs 4 --kv 18.38 -o whole
+said=$(head -1 "$work/stdout")
+for file in report.html:page summary.json:JSON table/tuned.c:C; do
+    run 3 tune "whole/${file%:*}" --pole-pairs 4 --kv 18.38 -o nothing
+    says "whole/${file%:*}: found (a )?${file#*:}.*, expected a table; give the CSV file"
+done
+run 3 tune whole/currents/waveform.csv --pole-pairs 4 --kv 18.38 -o nothing
+says 'waveform.csv: found calculated currents, as solve writes them in waveform.csv, expected a log that was measured'
+
+# logs that were sorted by their angle, within the turn, are those that they were
+for log in none two three; do
+    awk -F, -v OFS=, 'NR > 1 { $2 -= 6.283185307 * int($2 / 6.283185307) } 1' $log.csv >wrapped.csv
+    { head -1 wrapped.csv; tail -n +2 wrapped.csv | sort -t, -gk2; } >sorted_$log.csv
+done
+run 1 tune sorted_none.csv sorted_two.csv sorted_three.csv --pole-pairs 4 --kv 18.38 -o sorted
+says '3 of 3 recordings: its rows stand in the order of the angle, and are taken in'
+check "other words: $(head -1 "$work/stdout")" [ "$(head -1 "$work/stdout" | tr -d '0-9.')" = "$(printf %s "$said" | tr -d '0-9.')" ]
+
 # Anti-cogging alone
 run 0 tune right.csv --pole-pairs 4 --kv 18.38 --slots 12 --torque 0 -o alone
 check "no table of anti-cogging alone" [ -e alone/table/tuned.c ]

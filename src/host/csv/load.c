@@ -4,6 +4,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 #include "hci/host/base/output.h"
 #include "host/base/memory.h"
@@ -99,6 +100,29 @@ static const char *kind_of(const char *text, size_t size)
     return NULL;
 }
 
+/* A text that is no table, by how it begins; NULL: nothing that is known. */
+static const char *kind_of_text(const char *text)
+{
+    static const struct {
+        const char *begins, *words;
+    } KINDS[] = {{"<!doctype html", "found a page (HTML), expected a table"},
+                 {"<html", "found a page (HTML), expected a table"},
+                 {"<?xml", "found XML, expected a table"},
+                 {"<svg", "found a picture (SVG), expected a table"},
+                 {"{", "found JSON, expected a table"},
+                 {"[{", "found JSON, expected a table"},
+                 {"[[", "found JSON, expected a table"},
+                 {"#include", "found a C source, expected a table"},
+                 {"#!/", "found a script, expected a table"}};
+    if (strncmp(text, "\xEF\xBB\xBF", 3) == 0) text += 3;
+    text += strspn(text, " \t\r\n");
+    for (size_t k = 0; k < sizeof KINDS / sizeof *KINDS; ++k)
+        if (strncasecmp(text, KINDS[k].begins, strlen(KINDS[k].begins)) == 0) return KINDS[k].words;
+    return strncmp(text, "/*", 2) == 0 && strstr(text, "#include") != NULL
+               ? "found a C source, expected a table"
+               : NULL;
+}
+
 /* A file that is no text, or a log that lost its end to a power failure. */
 static hci_status nul_error(const hci_csv *csv, hci_note *note)
 {
@@ -143,7 +167,12 @@ static hci_status check_text(hci_csv *csv, size_t size, hci_note *note)
     if (kind != NULL)
         return hci_csv_file_error(csv->path, note, kind, "save the table in it as CSV and give that file");
     const hci_status status = change_encoding(csv, &size, note);
-    if (status || (csv->leaves_holes && ends_in_nul(csv, size))) return status;
+    if (status) return status;
+    kind = kind_of_text(csv->text);
+    if (kind != NULL)
+        return hci_csv_file_error(csv->path, note, kind,
+                                  "give the CSV file of the rows, which may stand beside it");
+    if (csv->leaves_holes && ends_in_nul(csv, size)) return HCI_OK;
     return strlen(csv->text) < size ? nul_error(csv, note) : HCI_OK;
 }
 

@@ -1,6 +1,7 @@
 #include "host/recording/clock.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "host/base/memory.h"
@@ -434,5 +435,89 @@ hci_status hci_clocks_agree(hci_csv *csv, hci_note *note)
         if (apart(both[0], both[1], n, &at) > 0.0) status = tell_clocks(&x, k, member, at, both, note);
     }
     hci_memory_free(time_s);
+    return status;
+}
+
+/* ---- rows in the order of another column ---- */
+
+#define SCATTERED 20.0 /* times the mean step, that half of the steps of time are, one way or the other */
+#define BACK      0.05 /* of the steps, that go back */
+
+typedef struct {
+    double time_s;
+    size_t row;
+} stamped_row;
+
+static int compare_stamps(const void *a, const void *b)
+{
+    const stamped_row *x = a, *y = b;
+    if (x->time_s < y->time_s || x->time_s > y->time_s) return x->time_s < y->time_s ? -1 : 1;
+    return (x->row > y->row) - (x->row < y->row);
+}
+
+/* Whether times jump about from row to row. work: n. */
+static bool is_scattered(const double *time_s, size_t n, double *work)
+{
+    double least = INFINITY, most = -INFINITY, back = 0.0;
+    for (size_t k = 0; k < n; ++k) {
+        if (!isfinite(time_s[k])) return false;
+        least = fmin(least, time_s[k]);
+        most = fmax(most, time_s[k]);
+        if (k == 0) continue;
+        back += time_s[k] < time_s[k - 1];
+        work[k - 1] = fabs(time_s[k] - time_s[k - 1]);
+    }
+    return back > BACK * (double)n && hci_median(work, n - 1) > SCATTERED * (most - least) / (double)n;
+}
+
+/* Whether a column is there and never goes back. work: n. */
+static bool ascends_in(const hci_csv *csv, const char *column, double *work, size_t n)
+{
+    hci_note unused = {{0}};
+    if (!hci_csv_has(csv, column) || hci_csv_numbers(csv, column, work, &unused)) return false;
+    for (size_t k = 1; k < n; ++k)
+        if (work[k] < work[k - 1]) return false;
+    return work[n - 1] > work[0];
+}
+
+static void reorder(hci_csv *csv, stamped_row *order, size_t n, uint32_t *moved)
+{
+    const size_t width = csv->columns + 1;
+    uint32_t *rows = csv->index + hci_csv_first_record(csv) * width;
+    qsort(order, n, sizeof *order, compare_stamps);
+    for (size_t k = 0; k < n; ++k)
+        memcpy(moved + k * width, rows + order[k].row * width, width * sizeof *moved);
+    memcpy(rows, moved, n * width * sizeof *moved);
+}
+
+static hci_status by_time(hci_csv *csv, size_t n, double *time_s, hci_note *note)
+{
+    double *work = time_s + n;
+    hci_note unused = {{0}};
+    if (hci_csv_numbers(csv, "time_s", time_s, &unused) || !is_scattered(time_s, n, work)) return HCI_OK;
+    if (!ascends_in(csv, "theta_m_rad", work, n) && !ascends_in(csv, "theta_e_rad", work, n)) return HCI_OK;
+    stamped_row *order = hci_memory_new(n, sizeof *order);
+    uint32_t *moved = hci_memory_new(n * (csv->columns + 1), sizeof *moved);
+    if (order != NULL && moved != NULL) {
+        for (size_t k = 0; k < n; ++k)
+            order[k] = (stamped_row){time_s[k], k};
+        reorder(csv, order, n, moved);
+        hci_note_add(&csv->decided,
+                     "its rows stand in the order of the angle, and are taken in that of the time");
+    }
+    const bool done = order != NULL && moved != NULL;
+    hci_memory_free(order);
+    hci_memory_free(moved);
+    return done ? HCI_OK : hci_note_memory(note, hci_csv_path(csv), "its rows by time");
+}
+
+hci_status hci_rows_by_time(hci_csv *csv, hci_note *note)
+{
+    const size_t n = hci_csv_rows(csv);
+    if (csv->number != NULL || n < LEAST || !hci_csv_has(csv, "time_s")) return HCI_OK;
+    double *work = hci_memory_new(2 * n, sizeof *work);
+    if (work == NULL) return hci_note_memory(note, hci_csv_path(csv), "its times");
+    const hci_status status = by_time(csv, n, work, note);
+    hci_memory_free(work);
     return status;
 }

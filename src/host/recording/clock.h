@@ -49,4 +49,9 @@ void hci_clock_smooth(hci_stamps stamps, double *work, hci_note *remark);
  * HCI_ERROR_MEMORY. Columns that are left out (`none`) do not count. O(rows). */
 hci_status hci_clocks_agree(hci_csv *csv, hci_note *note);
 
+/* Puts the rows of a file that was sorted by its angle back in the order of its time, and says so: where the
+ * angle never goes back, and half of the steps of time are more than twenty times the mean one, to and fro.
+ * HCI_ERROR_MEMORY. O(n log n). */
+hci_status hci_rows_by_time(hci_csv *csv, hci_note *note);
+
 #endif

@@ -283,6 +283,8 @@ static hci_status read_angles(reader *r, hci_angle_path *path)
     if (!status) status = read_angle(r, HCI_RUN_THETA_E, r->pole_pairs, &theta_e, &electrical);
     run->turn_known = run->theta_m_rad != NULL;
     run->is_electrical = theta_e != NULL;
+    run->has_both_frames =
+        r->columns.has[HCI_RUN_IA] && r->columns.has[HCI_RUN_ID] && r->columns.has[HCI_RUN_IQ];
     keep_angle_column(r);
     *path = mechanical.path;
     if (!status && theta_e != NULL) {
@@ -703,6 +705,7 @@ hci_status hci_run_csv(const char *path, const hci_run_options *options, hci_csv
     if (status) return status;
     status = name_columns(from ? NULL : path, options, *csv, note);
     if (!status) status = hci_clocks_agree(*csv, note);
+    if (!status) status = hci_rows_by_time(*csv, note);
     if (!status) status = hci_bare_angle_decide(*csv, options->pole_pairs, note);
     if (!status) return status;
     hci_csv_free(*csv);

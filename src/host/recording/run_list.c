@@ -3,6 +3,7 @@
 #include "hci/host/recording/run.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -94,6 +95,42 @@ static hci_status row_options(const list_reader *l, size_t row, hci_run_options 
     return hci_column_names_add_text(columns, names, from, l->note);
 }
 
+/* ---- what was not measured ---- */
+
+#define EXACT 1e-9 /* of the largest current, to which phase currents sum to 0 */
+
+/* Whether a run is currents over an electrical turn as solve writes them, without a time, with i_d and i_q
+ * and a torque beside the phases, in even steps from 0, to more digits than anything is measured with. */
+static bool is_calculated(const hci_run *run)
+{
+    double most_A = 0.0, sum_A = 0.0;
+    if (run->time_s || !run->has_both_frames || !run->is_electrical || !run->theta_m_rad || !run->i_A ||
+        !run->has_sum || run->count < 2)
+        return false;
+    if (run->torque_source != HCI_TORQUE_MEASURED && !run->torque_is_typed) return false;
+    if (fabs(run->theta_m_rad[0]) > 0.0) return false;
+    const double step_rad = run->theta_m_rad[1];
+    for (size_t k = 0; k < run->count; ++k) {
+        const double *i_A = run->i_A + 3 * k;
+        if (fabs(run->theta_m_rad[k] - (double)k * step_rad) > EXACT * (double)run->count) return false;
+        most_A = fmax(most_A, fabs(i_A[0]));
+        sum_A = fmax(sum_A, fabs(i_A[0] + i_A[1] + i_A[2]));
+    }
+    return most_A > 0.0 && sum_A < EXACT * most_A;
+}
+
+static hci_status refuse_calculated(const char *path, hci_run *run, hci_note *note)
+{
+    char shown[HCI_QUOTE_PATH_SIZE];
+    if (!is_calculated(run)) return HCI_OK;
+    hci_run_release(run);
+    return hci_note_set(
+        note, HCI_ERROR_INPUT,
+        "%s: found calculated currents, as solve writes them in waveform.csv, expected a log that was "
+        "measured; record the machine while they are played",
+        hci_quote_path(path, shown));
+}
+
 /* ---- columns that only some recordings have ---- */
 
 /* Reads one that may lack columns which options name, and says so of it. */
@@ -112,7 +149,7 @@ static hci_status read_lacking(const list_reader *l, const hci_run_options *opti
             hci_note_add(&run->remark, "no column `%.60s`: read without %.40s", names->item[k].column,
                          names->item[k].name);
     hci_memory_free(before);
-    return status;
+    return status ? status : refuse_calculated(path, run, l->note);
 }
 
 /* A column that no recording has: the error that the first one of them gives. */
@@ -384,6 +421,7 @@ hci_status hci_runs_add(hci_runs *runs, const char *path, hci_role role, const h
     hci_run run = {0};
     hci_status status = check_new(runs, path, note);
     if (!status) status = hci_run_read(path, options, &run, note);
+    if (!status) status = refuse_calculated(path, &run, note);
     if (status) return status;
     const bool done =
         append(&all, runs->count, &run, 1, sizeof run) && append(&roles, runs->count, &role, 1, sizeof role);

@@ -96,6 +96,7 @@ typedef struct {
     bool mean_is_unknown;   /* a constant load stands in torque_Nm too: only what varies says something */
     bool hardly_accelerates; /* beside mean_is_unknown: the current does not accelerate, so that the torque
                                 per ampere is not told */
+    bool has_both_frames;    /* phase currents and both of i_d and i_q were recorded */
     bool has_sum;            /* all three currents were recorded, so that their sum says something */
     int computed_phase; /* 1, 2, 3: of two phase currents the third was made, so that the sum is 0; 0: not */
     char torque_like[HCI_RUN_NAME];  /* no torque was read, and this, as --column takes it, may read one that
