@@ -58,6 +58,11 @@ static void name_order(const cli_tuning *t, double order, bool in_pairs, char na
                  cli_tune_order_words(t, fmax(order, partner), other));
 }
 
+static const char *unit_for_people(const char *unit)
+{
+    return strcmp(unit, "Nm") == 0 ? "N·m" : strcmp(unit, "Nm_per_A") == 0 ? "N·m/A" : unit;
+}
+
 static void say_orders(cli_tuning *t, hci_tuning_part part, const hci_effect *e, bool in_pairs)
 {
     double above = HUGE_VAL;
@@ -73,7 +78,7 @@ static void say_orders(cli_tuning *t, hci_tuning_part part, const hci_effect *e,
         if (!(most > 0.0)) return;
         name_order(t, order, in_pairs, name);
         hci_tuning_say(&t->tuning, part, "  order %s: %.4g ± %.1g %s", name, most, error,
-                       strcmp(e->type->parameter[0].unit, "Nm") == 0 ? "N·m" : e->type->parameter[0].unit);
+                       unit_for_people(e->type->parameter[0].unit));
         above = most;
     }
 }
@@ -155,6 +160,57 @@ static void say_pairs(cli_tuning *t)
             "another: either tells orders 5 and 7 of the back-EMF apart.");
 }
 
+#define TERMS_SAID 4
+
+/* "co-energy with i_d^1 i_q^2, of cos nθ, order 6" */
+static void say_term(const hci_effect *e, const hci_effect_term *x, const cli_tuning *t, char *text,
+                     size_t size)
+{
+    const hci_effect_parameter *p = &e->type->parameter[x->parameter];
+    char order[CLI_TUNE_ORDER];
+    if (!p->ordered)
+        snprintf(text, size, "%s", p->meaning);
+    else if (x->order > 0.0)
+        snprintf(text, size, "%s, order %s", p->meaning, cli_tune_order_words(t, x->order, order));
+    else
+        snprintf(text, size, "%.*s, the same at every angle", (int)strcspn(p->meaning, ","), p->meaning);
+}
+
+/* The value of an effect that is the largest below `above`; NULL: there is none. */
+static const hci_effect_term *largest_term(const hci_effect *e, double above)
+{
+    const hci_effect_term *most = NULL;
+    for (size_t k = 0; k < e->count; ++k)
+        if (fabs(e->term[k].value) < above && (!most || fabs(e->term[k].value) > fabs(most->value)))
+            most = &e->term[k];
+    return most;
+}
+
+/* The values of an effect in words, the largest ones of many. */
+static void say_terms(cli_tuning *t, hci_tuning_part part, const hci_effect *e)
+{
+    double above = HUGE_VAL;
+    for (size_t shown = 0; shown < TERMS_SAID; ++shown) {
+        const hci_effect_term *x = largest_term(e, above);
+        char words[160], error[40] = "";
+        if (!x) return;
+        say_term(e, x, t, words, sizeof words);
+        if (isfinite(x->std_error)) snprintf(error, sizeof error, " ± %.1g", x->std_error);
+        hci_tuning_say(&t->tuning, part, "  %.4g%s %s %s", x->value, error,
+                       unit_for_people(e->type->parameter[x->parameter].unit), words);
+        above = fabs(x->value);
+    }
+    if (e->count > TERMS_SAID)
+        hci_tuning_say(&t->tuning, part, "  and %zu smaller ones, in diagnose/machine/effects.csv",
+                       e->count - TERMS_SAID);
+}
+
+static const char *title_of(const hci_finding *f)
+{
+    const hci_effect_type *type = hci_effect_type_find(f->effect);
+    return type ? type->title : f->effect;
+}
+
 /* What several effects explain equally well is not found. */
 static void say_finding(cli_tuning *t, const hci_finding *f)
 {
@@ -163,14 +219,20 @@ static void say_finding(cli_tuning *t, const hci_finding *f)
     const hci_tuning_part part = is_known ? HCI_TUNING_FOUND : HCI_TUNING_UNKNOWN;
     if (is_known && t->cogging.kept > 0 && is_of_angle(effect)) return; /* with what the holding test shows */
     if (effect && has_orders(effect)) {
-        hci_tuning_say(&t->tuning, part, "%s (%s), the largest orders:", f->effect,
+        hci_tuning_say(&t->tuning, part, "%s (%s), the largest orders:", title_of(f),
                        hci_finding_verdict_name(f->verdict));
         const bool in_pairs = is_of_emf(effect) && !t->has_emf && cli_tune_currents_are_in_line(t);
         say_orders(t, part, effect, in_pairs);
         if (in_pairs) say_pairs(t);
         return;
     }
-    hci_tuning_say(&t->tuning, part, "%s (%s): %s%s", f->effect,
+    if (effect && effect->count > TERMS_SAID) {
+        hci_tuning_say(&t->tuning, part, "%s (%s), the largest of %zu terms:", title_of(f),
+                       hci_finding_verdict_name(f->verdict), effect->count);
+        say_terms(t, part, effect);
+        return;
+    }
+    hci_tuning_say(&t->tuning, part, "%s (%s): %s%s", title_of(f),
                    is_known || strcmp(f->effect, "unknown") != 0 ? hci_finding_verdict_name(f->verdict)
                                                                  : "left",
                    f->detail, less_sensor_zero(t, effect));

@@ -111,14 +111,35 @@ static void say_lack_of_torque(const cli_tuning *t, char *text, size_t size)
         snprintf(text, size, "No log has a torque, so the table takes no cogging torque away");
 }
 
+/* Whether the model has cogging torque that the table could take away. */
+static bool has_cogging(const cli_tuning *t)
+{
+    for (size_t k = 0; k < t->declared.model.cogging_count; ++k)
+        if (hypot(t->declared.model.cogging[k].sine, t->declared.model.cogging[k].cosine) > 0.0) return true;
+    return t->has_cogging;
+}
+
+/* What the harmonics of a measured back-EMF make, which is all that the table answers. */
+static void append_emf_ripple(const cli_tuning *t, char *text, size_t size)
+{
+    double before_Nm, after_Nm;
+    cli_tune_swing_of(t, &before_Nm, &after_Nm);
+    if (t->has_emf && before_Nm >= t->solution.tolerance_Nm)
+        snprintf(text + strlen(text), size - strlen(text),
+                 "; the ripple that the measured back-EMF makes, %.3g N·m from peak to peak, %s %.3g N·m in "
+                 "the model",
+                 before_Nm, becomes(before_Nm, after_Nm), after_Nm);
+}
+
 static void say_table(cli_tuning *t)
 {
     hci_tuning *r = &t->tuning;
     double before_Nm, after_Nm;
     hci_tuning_swing(&t->solution, &before_Nm, &after_Nm);
-    if (cli_tune_lacks_torque(t) && !t->has_cogging && t->declared.model.cogging_count == 0)
+    if (cli_tune_lacks_torque(t) && !has_cogging(t)) {
         say_lack_of_torque(t, r->heading, sizeof r->heading);
-    else if (t->size == CLI_TUNE_EXCESS)
+        append_emf_ripple(t, r->heading, sizeof r->heading);
+    } else if (t->size == CLI_TUNE_EXCESS)
         cli_tune_say_excess(t, r->heading, sizeof r->heading);
     else if (before_Nm >= t->solution.tolerance_Nm)
         say_fall(t, r->heading, sizeof r->heading);

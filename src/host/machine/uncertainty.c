@@ -60,8 +60,15 @@ bool hci_uncertainty_is_of(const hci_uncertainty *u, const hci_effects *effects)
     return holds_all(effects, &u->effects.list) && holds_all(&u->effects.list, effects);
 }
 
+/* No recording had a torque that would have to be explained: of voltages alone. */
+static bool is_of_no_torque(const hci_machine_origin *origin)
+{
+    return strcmp(origin->verdict, "unknown") == 0 && !isfinite(origin->unexplained_Nm);
+}
+
 bool hci_machine_origin_is_doubtful(const hci_machine_origin *origin)
 {
+    if (is_of_no_torque(origin)) return false;
     return strcmp(origin->verdict, "partly explained") == 0 || strcmp(origin->verdict, "unknown") == 0 ||
            (origin->search[0] && strcmp(origin->search, "complete") != 0);
 }

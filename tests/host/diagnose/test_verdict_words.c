@@ -80,13 +80,13 @@ static void test_parts_of_a_whole(void)
     d.finding[2] = (hci_finding){"reluctance", HCI_FINDING_ADDED, -105.0, 0, 9, 0.01, ""};
     d.findings = 3;
     TEST_ASSERT_TRUE(
-        says("The model lacked saturation. Terms of back_emf and reluctance stand in the machine too"));
+        says("The model lacked saturation. Terms of back-EMF and reluctance torque stand in the machine too"));
     TEST_ASSERT_FALSE(says("0 of 9"));
     d.finding[1].stays = 6; /* enough */
-    TEST_ASSERT_TRUE(says("The model lacked saturation and back_emf. Terms of reluctance stand"));
+    TEST_ASSERT_TRUE(says("The model lacked saturation and back-EMF. Terms of reluctance torque stand"));
     d.finding[2].delta_bic = 400.0; /* on evidence of its own */
-    TEST_ASSERT_TRUE(says("The model lacked saturation, back_emf and reluctance."));
-    TEST_ASSERT_TRUE(says("reluctance is found in 0 of 9"));
+    TEST_ASSERT_TRUE(says("The model lacked saturation, back-EMF and reluctance torque."));
+    TEST_ASSERT_TRUE(says("reluctance torque is found in 0 of 9"));
 }
 
 /* Nothing else is there that it is a part of. */
@@ -127,7 +127,7 @@ static void test_what_is_decisive_and_not_taken(void)
         (hci_finding){.effect = "mechanical_order", .verdict = HCI_FINDING_REJECTED, .delta_bic = 13602.0};
     d.finding[3] = (hci_finding){.effect = "cogging", .verdict = HCI_FINDING_REJECTED, .delta_bic = 20.0};
     d.findings = 4;
-    TEST_ASSERT_TRUE(says("Decisive by ΔBIC and not taken: mechanical_order (1.36e+04); what each"));
+    TEST_ASSERT_TRUE(says("Decisive by ΔBIC and not taken: orders of the mechanical turn (1.36e+04); what each"));
     d.finding[2].delta_bic = 30.0;
     TEST_ASSERT_FALSE(says("Decisive"));
 }

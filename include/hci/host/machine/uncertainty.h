@@ -26,16 +26,17 @@ typedef struct {
 
 /* The diagnosis that a machine comes from. */
 typedef struct {
-    char verdict[20];      /* in a word or two, as in its summary.json; "": it comes from none */
-    char search[16];       /* how its search ended, likewise */
-    double unexplained_Nm; /* rms of the ripple in its recordings that the model does not have and that is
-                            * not noise; NAN: not known */
+    char verdict[20];          /* in a word or two, as in its summary.json; "": it comes from none */
+    char search[16];           /* how its search ended, likewise */
+    double unexplained_Nm;     /* rms of the ripple in its recordings that the model does not have and that is
+                                * not noise; NAN: not known */
     bool constant_is_declared; /* no recording told the torque per ampere: it is the declared one */
-    double turning_load_Nm; /* torque once or twice a turn, which a load on the shaft makes as well as the
-                             * motor, and no recording tells which; 0: none */
+    double turning_load_Nm;    /* torque once or twice a turn, which a load on the shaft makes as well as the
+                                * motor, and no recording tells which; 0: none */
 } hci_machine_origin;
 
-/* Whether it has not explained its recordings: partly explained, unknown, or a search that ended early. */
+/* Whether it has not explained its recordings: partly explained, unknown, or a search that ended early. Not
+ * where none of them had a torque. */
 bool hci_machine_origin_is_doubtful(const hci_machine_origin *origin);
 
 /* Machines that the recordings allow as well as the one that is written down. Start with {0}: nothing is
