@@ -149,6 +149,7 @@ static void test_copper(void)
     solve(HCI_NOT_REACHED);
     TEST_ASSERT_DOUBLE_WITHIN(1e-5, 0.3 * sqrt(100.0 / 1.5), mean_Nm());
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.3 * sqrt(1.0 / 1.5) / 20.0, limit(HCI_LIMIT_COPPER)->gain);
+    TEST_ASSERT_EQUAL_INT(-1, limit(HCI_LIMIT_COPPER)->phase); /* of all phases */
     options.limits.copper_W = 0.0;
     options.limits.copper_ratio = 0.81;
     solve(HCI_NOT_REACHED);
