@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "hci/math/harmonic.h"
+
 double hci_mean(const double *x, size_t n)
 {
     double sum = 0.0;
@@ -68,4 +70,36 @@ double hci_quantum(const double *x, size_t n, double rounding)
         if (bend > rounding) least = fmin(least, bend);
     }
     return isfinite(least) ? least : rounding;
+}
+
+#define FINEST   0.02 /* steps from so much of the bends' rms … */
+#define COARSEST 2.0  /* … to so much: above it all bends are near 0 of them … */
+#define RATIO    1.01 /* … each so much larger than the one before */
+#define COHERES                                                                                              \
+    0.5 /* mean cosine of bends as angles of a step, of values that are its multiples, rounded to a sixth */
+
+enum { BENDS = 4096 };
+
+/* Mean of cos 2π b/step over the bends of x. */
+static double coherence(const double *x, size_t n, double step)
+{
+    double sum = 0.0;
+    for (size_t k = 2; k < n; ++k)
+        sum += cos(2.0 * HCI_PI * (x[k] - 2.0 * x[k - 1] + x[k - 2]) / step);
+    return sum / (double)(n - 2);
+}
+
+double hci_step_of_counts(const double *x, size_t n)
+{
+    const size_t count = n < BENDS ? n : BENDS;
+    double square = 0.0, found = 0.0, most = COHERES;
+    for (size_t k = 2; k < count; ++k)
+        square += pow(x[k] - 2.0 * x[k - 1] + x[k - 2], 2.0);
+    const double rms = count > 2 ? sqrt(square / (double)(count - 2)) : 0.0;
+    for (double step = COARSEST * rms; step > FINEST * rms; step /= RATIO) {
+        const double coheres = coherence(x, count, step);
+        if (coheres > most) most = coheres, found = step;
+        if (found > 0.0 && coheres < COHERES) break; /* what follows are parts of it */
+    }
+    return found;
 }

@@ -244,7 +244,9 @@ static hci_status take_turns(path *p, hci_turn_ways *ways)
     hci_status status = fit(p, ways->scale, &average);
     if (status) return status;
     ways->highest = average.highest;
-    ways->resolution_rad = OF_STEP * hci_quantum(p->run->theta_m_rad, p->run->count, LEAST_RAD);
+    const double *theta = p->run->theta_m_rad;
+    ways->resolution_rad = OF_STEP * fmax(hci_quantum(theta, p->run->count, LEAST_RAD),
+                                          hci_step_of_counts(theta, p->run->count));
     for (int d = 0; d < 2 && !status; ++d)
         status = take_way(&average, d == 0 ? 1 : -1, ways, &ways->way[d]);
     hci_average_release(&average);

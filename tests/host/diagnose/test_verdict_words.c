@@ -79,8 +79,8 @@ static void test_parts_of_a_whole(void)
     d.finding[1] = (hci_finding){"back_emf", HCI_FINDING_ADDED, -77.0, 0, 9, 0.01, ""};
     d.finding[2] = (hci_finding){"reluctance", HCI_FINDING_ADDED, -105.0, 0, 9, 0.01, ""};
     d.findings = 3;
-    TEST_ASSERT_TRUE(
-        says("The model lacked saturation. Terms of back-EMF and reluctance torque stand in the machine too"));
+    TEST_ASSERT_TRUE(says(
+        "The model lacked saturation. Terms of back-EMF and reluctance torque stand in the machine too"));
     TEST_ASSERT_FALSE(says("0 of 9"));
     d.finding[1].stays = 6; /* enough */
     TEST_ASSERT_TRUE(says("The model lacked saturation and back-EMF. Terms of reluctance torque stand"));
@@ -127,7 +127,8 @@ static void test_what_is_decisive_and_not_taken(void)
         (hci_finding){.effect = "mechanical_order", .verdict = HCI_FINDING_REJECTED, .delta_bic = 13602.0};
     d.finding[3] = (hci_finding){.effect = "cogging", .verdict = HCI_FINDING_REJECTED, .delta_bic = 20.0};
     d.findings = 4;
-    TEST_ASSERT_TRUE(says("Decisive by ΔBIC and not taken: orders of the mechanical turn (1.36e+04); what each"));
+    TEST_ASSERT_TRUE(
+        says("Decisive by ΔBIC and not taken: orders of the mechanical turn (1.36e+04); what each"));
     d.finding[2].delta_bic = 30.0;
     TEST_ASSERT_FALSE(says("Decisive"));
 }
