@@ -237,10 +237,10 @@ static bool has_more(const hci_attribution *a)
 static hci_status established_leave(hci_dataset *b, const hci_runs *runs, hci_attribution *a,
                                     hci_diagnosis *d, hci_note *note)
 {
-    const bool is_new = hci_no_load_is_new(b->regression.machine, &a->model.candidates);
+    const bool shown = hci_no_load_is_shown(b, runs, &a->model.candidates, d);
     for (size_t r = 0; r < a->types; ++r)
         a->verdict[r].established =
-            a->verdict[r].established && is_new && hci_no_load_is_asked(a->verdict[r].type);
+            a->verdict[r].established && shown && hci_no_load_is_asked(a->verdict[r].type);
     a->no_load_alone = false;
     return withdraw(b, runs, a, d, true, note);
 }

@@ -1,6 +1,7 @@
 #include "host/diagnose/no_load_denied.h"
 
 #include <math.h>
+#include <string.h>
 
 #define LITTLE    0.01 /* of the largest current, that is none */
 #define RISES     1.02 /* times the error before */
@@ -8,6 +9,7 @@
 #define BY_CHANCE 2.0  /* deviations */
 #define ONE       0.1  /* of a speed, by which others are the same */
 #define MADE      3.0  /* times a declared amplitude, that no sensor makes of it */
+#define MUCH      4.0  /* times the square that a torque takes away, beside which it is not seen */
 #define SHRINKS   1.05 /* times an amplitude, that a lag leaves of it at most */
 
 bool hci_no_load_is_asked(const hci_effect_type *type)
@@ -58,12 +60,25 @@ static bool rises_by_part(const ripples *loaded, const ripples *other)
     return fall > 0.0 && rise > DENIED * fall && rise + fall > BY_CHANCE * sqrt(variance / loaded->runs);
 }
 
+/* Of the runs under load and of the others. */
+typedef struct {
+    ripples loaded, other;
+} both;
+
+static both ripples_of(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d)
+{
+    both x;
+    memset(&x, 0, sizeof x);
+    for (size_t k = 0; k < d->runs; ++k)
+        ripples_add(&d->run[k], is_loaded(b, run_of(runs, &d->run[k])) ? &x.loaded : &x.other);
+    return x;
+}
+
 bool hci_no_load_rises(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d)
 {
-    ripples loaded = {0}, other = {0};
-    for (size_t k = 0; k < d->runs; ++k)
-        ripples_add(&d->run[k], is_loaded(b, run_of(runs, &d->run[k])) ? &loaded : &other);
-    return loaded.after > RISES * RISES * fmax(loaded.before, loaded.noise) || rises_by_part(&loaded, &other);
+    const both x = ripples_of(b, runs, d);
+    return x.loaded.after > RISES * RISES * fmax(x.loaded.before, x.loaded.noise) ||
+           rises_by_part(&x.loaded, &x.other);
 }
 
 /* ---- at one speed ---- */
@@ -104,7 +119,9 @@ static bool is_like_lag(const hci_machine *machine, const hci_candidates *model)
 
 /* ---- orders that are not declared ---- */
 
-bool hci_no_load_is_new(const hci_machine *machine, const hci_candidates *model)
+/* Whether most of it has orders that the machine does not declare, or far larger ones: a sensor that lags,
+ * averages or has play changes a torque that is there, and adds no order of the turn. */
+static bool is_new(const hci_machine *machine, const hci_candidates *model)
 {
     double declared = 0.0, new = 0.0; /* squares of what changes */
     for (size_t k = 0; k < model->count; ++k) {
@@ -118,13 +135,36 @@ bool hci_no_load_is_new(const hci_machine *machine, const hci_candidates *model)
     return new > declared;
 }
 
+/* Whether what is left under load is much more than what the torque takes away without: nothing can be said
+ * of that torque there. Where it is as much, it may be the same of another phase, such as a hum of the mains.
+ */
+static bool is_drowned(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d)
+{
+    const both x = ripples_of(b, runs, d);
+    const double left = (x.loaded.before - x.loaded.noise) / x.loaded.runs;
+    return left > MUCH * -x.other.rise / x.other.runs;
+}
+
+bool hci_no_load_is_shown(const hci_dataset *b, const hci_runs *runs, const hci_candidates *model,
+                          const hci_diagnosis *d)
+{
+    return is_new(b->regression.machine, model) && (!is_one_speed(b, runs) || is_drowned(b, runs, d));
+}
+
 const char *hci_no_load_denied(const hci_dataset *b, const hci_runs *runs, const hci_candidates *model,
                                const hci_diagnosis *d)
 {
-    if (hci_no_load_rises(b, runs, d) && !hci_no_load_is_new(b->regression.machine, model))
-        return "The runs under load deny a torque over the angle that those without a current show: their "
-               "ripple is larger with it, as where the torque sensor lags or its coupling has play; it was "
-               "left out";
+    if (hci_no_load_rises(b, runs, d) && !hci_no_load_is_shown(b, runs, model, d))
+        return is_new(b->regression.machine, model)
+                   ? "The runs under load deny a torque over the angle that those without a current show at "
+                     "their one speed: their ripple is larger with it, as where it is a frequency, such as "
+                     "that "
+                     "of the mains; it was left out"
+                   : "The runs under load deny a torque over the angle that those without a current show: "
+                     "their "
+                     "ripple is larger with it, as where the torque sensor lags or its coupling has play; it "
+                     "was "
+                     "left out";
     if (is_one_speed(b, runs) && is_like_lag(b->regression.machine, model))
         return "What the runs without a current show at their one speed may be other cogging, or a torque "
                "sensor "

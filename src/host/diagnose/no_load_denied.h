@@ -9,9 +9,11 @@
 /* Whether it is a torque over the angle, which is asked about. */
 bool hci_no_load_is_asked(const hci_effect_type *type);
 
-/* Whether most of it has orders that the machine does not declare, or far larger ones: a sensor that lags,
- * averages or has play changes a torque that is there, and adds no order of the turn. */
-bool hci_no_load_is_new(const hci_machine *machine, const hci_candidates *model);
+/* Whether it has mostly orders that the machine does not declare, which no sensor makes of others, and either
+ * shows at different speeds, where no frequency is one order, or beside so large a ripple under load that
+ * this says nothing of it. */
+bool hci_no_load_is_shown(const hci_dataset *dataset, const hci_runs *runs, const hci_candidates *model,
+                          const hci_diagnosis *diagnosis);
 
 /* Whether the ripple that is left of the runs under load is larger with it than that of the declared machine.
  */

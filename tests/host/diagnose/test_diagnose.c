@@ -316,7 +316,7 @@ static void test_torque_per_ampere_or_inertia(void)
     TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_AMBIGUOUS, diagnosis.verdict);
     TEST_ASSERT_EQUAL_INT(HCI_FINDING_AMBIGUOUS, found("back_emf")->verdict);
     hci_diagnosis_words(&diagnosis, words, sizeof words);
-    TEST_ASSERT_NOT_NULL(strstr(words, "back_emf and a wrong inertia apart"));
+    TEST_ASSERT_NOT_NULL(strstr(words, "back-EMF and a wrong inertia apart"));
     TEST_ASSERT_NOT_NULL(strstr(diagnosis.advice, "the voltages of the open terminals would tell"));
 }
 
