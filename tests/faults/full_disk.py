@@ -52,11 +52,9 @@ def attempt(disk, command, older, options):
 def main(program, older, *words):
     counted, wrong = collections.Counter(), 0
     with tempfile.TemporaryDirectory() as work:
-        disk, whole = os.path.join(work, "disk"), os.path.join(work, "out")
+        disk = os.path.join(work, "disk")
         os.mkdir(disk)
-        shutil.copytree(older, whole)
-        subprocess.run([program, *words, "-q", "-o", whole], stdin=subprocess.DEVNULL, capture_output=True)
-        old, new = content(older), content(whole)
+        old, new = content(older), attempt(disk, [program, *words], older, "size=1g")[2]  # files may name their folder
         for options in disks(old, new):
             result = attempt(disk, [program, *words], older, options)
             if result is None:
