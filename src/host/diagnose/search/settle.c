@@ -29,8 +29,9 @@
     0.04 /* of what effects explain, that they leave in runs left out: a fifth of the error                  \
           */
 
-#define MOSTLY   0.25 /* the same, of effects that are there and not all */
-#define AS_BADLY 0.5  /* of that, by the ripple alone: then it is not the means */
+#define PART_OF_IT 0.02 /* the same, of iron beside something unknown: a seventh of the error */
+#define MOSTLY     0.25 /* the same, of effects that are there and not all */
+#define AS_BADLY   0.5  /* of that, by the ripple alone: then it is not the means */
 
 enum { BLOCK = 24 }; /* samples */
 
@@ -457,7 +458,7 @@ static hci_status score_of_means(hci_search *s, const hci_fitted_model *model, d
     return status;
 }
 
-/* Iron that saturates, beside what is no noise, is a part of that where it is wrong by more than a fifth in
+/* Iron that saturates, beside what is no noise, is a part of that where it is wrong by more than a seventh in
  * runs left out, and a mean of each run that is another one, whatever makes it, describes the recordings
  * better: so do magnets whose temperature nobody wrote down. */
 static hci_status are_means_better(hci_search *s, const hci_attribution *a, bool *better, hci_note *note)
@@ -470,7 +471,7 @@ static hci_status are_means_better(hci_search *s, const hci_attribution *a, bool
     hci_status status = HCI_OK;
     if (!a->unknown) status = hci_search_is_noise(s, &model->candidates, &all, note);
     if (!status && !all) status = hci_search_unpredicted(s, &model->candidates, &share, note);
-    if (!status && share > UNPREDICTED) status = score_of_means(s, model, &score, note);
+    if (!status && share > PART_OF_IT) status = score_of_means(s, model, &score, note);
     *better = !status && score + HCI_DECISIVE < model->fit.score;
     return status;
 }
