@@ -160,6 +160,14 @@ static hci_status change_encoding(hci_csv *csv, size_t *size, hci_note *note)
     return *size >= SIZE_LIMIT ? too_large(csv, note) : HCI_OK;
 }
 
+static hci_status no_table(const hci_csv *csv, const char *kind, hci_note *note)
+{
+    char path[HCI_QUOTE_PATH_SIZE];
+    return hci_note_set(note, HCI_ERROR_INPUT,
+                        "%s:1: %s; give the CSV file of the rows, which may stand beside it",
+                        hci_quote_path(csv->path, path), kind);
+}
+
 static hci_status check_text(hci_csv *csv, size_t size, hci_note *note)
 {
     if (size == SIZE_LIMIT) return too_large(csv, note);
@@ -169,9 +177,7 @@ static hci_status check_text(hci_csv *csv, size_t size, hci_note *note)
     const hci_status status = change_encoding(csv, &size, note);
     if (status) return status;
     kind = kind_of_text(csv->text);
-    if (kind != NULL)
-        return hci_csv_file_error(csv->path, note, kind,
-                                  "give the CSV file of the rows, which may stand beside it");
+    if (kind != NULL) return no_table(csv, kind, note);
     if (csv->leaves_holes && ends_in_nul(csv, size)) return HCI_OK;
     return strlen(csv->text) < size ? nul_error(csv, note) : HCI_OK;
 }
