@@ -298,7 +298,7 @@ run 1 tune none.csv two.csv three.csv --pole-pairs 4 --kv 18.38 -o whole
 said=$(head -1 "$work/stdout")
 for file in report.html:page summary.json:JSON table/tuned.c:C; do
     run 3 tune "whole/${file%:*}" --pole-pairs 4 --kv 18.38 -o nothing
-    says "whole/${file%:*}: found (a )?${file#*:}.*, expected a table; give the CSV file"
+    says "whole/${file%:*}:1: found (a )?${file#*:}.*, expected a table; give the CSV file"
 done
 run 3 tune whole/currents/waveform.csv --pole-pairs 4 --kv 18.38 -o nothing
 says 'waveform.csv: found calculated currents, as solve writes them in waveform.csv, expected a log that was measured'
