@@ -14,26 +14,6 @@
 #include "cli/terminal/text.h"
 #include "hci/host/diagnose/again.h"
 
-enum { MOST_TERMS = 3 }; /* of an effect that are shown */
-
-static size_t terms_of(const hci_diagnosis *d, const char *effect)
-{
-    for (size_t k = 0; k < d->effects.list.count; ++k)
-        if (strcmp(d->effects.list.effect[k].type->name, effect) == 0) return d->effects.list.effect[k].count;
-    return 0;
-}
-
-/* Bytes up to the end of so many parts of a text that are divided by semicolons. */
-static size_t parts_length(const char *text, size_t parts)
-{
-    size_t length = 0;
-    for (; parts > 0 && text[length]; --parts) {
-        length += length > 0;
-        length += strcspn(text + length, ";");
-    }
-    return length;
-}
-
 /* What no effect explains is in no machine, whatever the table calls it. */
 static const char *verdict_words(const hci_finding *f)
 {
@@ -42,10 +22,9 @@ static const char *verdict_words(const hci_finding *f)
 
 static void show_finding(const hci_diagnosis *d, const hci_finding *f)
 {
-    const size_t terms = terms_of(d, f->effect), length = parts_length(f->detail, MOST_TERMS);
-    cli_say("  %-12s %s: %.*s", verdict_words(f), f->effect, (int)length, f->detail);
-    if (f->detail[length] && terms > MOST_TERMS) cli_say("; and %zu more", terms - MOST_TERMS);
-    cli_say("\n");
+    char words[HCI_DETAIL_SIZE];
+    hci_finding_words(d, f, words, sizeof words);
+    cli_say("  %-12s %s: %s\n", verdict_words(f), hci_finding_title(f->effect), words);
 }
 
 static void show_slips(const hci_diagnosis *d)
@@ -97,7 +76,7 @@ static void finding_row(const void *context, size_t row, cli_cell cell[])
     const hci_finding *f = d->finding;
     for (size_t shown = 0; shown < row || !is_shown(f); ++f)
         shown += is_shown(f);
-    snprintf(cell[0].text, sizeof cell[0].text, "%s", f->effect);
+    snprintf(cell[0].text, sizeof cell[0].text, "%s", hci_finding_title(f->effect));
     snprintf(cell[1].text, sizeof cell[1].text, "%s", verdict_words(f));
     if (isfinite(f->delta_bic)) snprintf(cell[2].text, sizeof cell[2].text, "%.4g", f->delta_bic);
     if (!isfinite(f->residual_share)) return;

@@ -205,21 +205,16 @@ static void say_terms(cli_tuning *t, hci_tuning_part part, const hci_effect *e)
                        e->count - TERMS_SAID);
 }
 
-static const char *title_of(const hci_finding *f)
-{
-    const hci_effect_type *type = hci_effect_type_find(f->effect);
-    return type ? type->title : f->effect;
-}
-
 /* What several effects explain equally well is not found. */
 static void say_finding(cli_tuning *t, const hci_finding *f)
 {
     const hci_effect *effect = effect_of(t, f);
     const bool is_known = f->verdict == HCI_FINDING_ADDED && strcmp(f->effect, "unknown") != 0;
     const hci_tuning_part part = is_known ? HCI_TUNING_FOUND : HCI_TUNING_UNKNOWN;
+    char words[HCI_DETAIL_SIZE];
     if (is_known && t->cogging.kept > 0 && is_of_angle(effect)) return; /* with what the holding test shows */
     if (effect && has_orders(effect)) {
-        hci_tuning_say(&t->tuning, part, "%s (%s), the largest orders:", title_of(f),
+        hci_tuning_say(&t->tuning, part, "%s (%s), the largest orders:", hci_finding_title(f->effect),
                        hci_finding_verdict_name(f->verdict));
         const bool in_pairs = is_of_emf(effect) && !t->has_emf && cli_tune_currents_are_in_line(t);
         say_orders(t, part, effect, in_pairs);
@@ -227,15 +222,16 @@ static void say_finding(cli_tuning *t, const hci_finding *f)
         return;
     }
     if (effect && effect->count > TERMS_SAID) {
-        hci_tuning_say(&t->tuning, part, "%s (%s), the largest of %zu terms:", title_of(f),
+        hci_tuning_say(&t->tuning, part, "%s (%s), the largest of %zu terms:", hci_finding_title(f->effect),
                        hci_finding_verdict_name(f->verdict), effect->count);
         say_terms(t, part, effect);
         return;
     }
-    hci_tuning_say(&t->tuning, part, "%s (%s): %s%s", title_of(f),
+    hci_finding_words(&t->diagnosis, f, words, sizeof words);
+    hci_tuning_say(&t->tuning, part, "%s (%s): %s%s", hci_finding_title(f->effect),
                    is_known || strcmp(f->effect, "unknown") != 0 ? hci_finding_verdict_name(f->verdict)
                                                                  : "left",
-                   f->detail, less_sensor_zero(t, effect));
+                   words, less_sensor_zero(t, effect));
 }
 
 /* ---- the electrical zero, by the back-EMF that was found ---- */

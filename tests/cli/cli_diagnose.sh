@@ -47,7 +47,7 @@ row() {
 recordings 0.3 0 slow.csv:60:2 back.csv:-150:7 held.csv:90:4
 printf 'file,role\nslow.csv,fit\nback.csv,fit\nheld.csv,holdout\n' >list.csv
 run 0 diagnose machine --runs list.csv -o deep/out
-says '^diagnosed: machine, list.csv: explained$' 'added +current_offset: a = 0\.(29|30)' 'held.csv +holdout'
+says '^diagnosed: machine, list.csv: explained$' 'added +zeros of the current sensors: phase a = 0\.(29|30)' 'held.csv +holdout'
 check "files: $(ls deep/out | tr '\n' ' ')" [ "$(ls deep/out | tr '\n' ' ')" = \
     'declared effects.csv errors.csv machine report.html residual_spectrum.csv summary.json ' ]
 check "effects.csv: $(head -n 2 deep/out/effects.csv)" grep -Eq '^1,current_offset,added,[0-9.]+,0\.9[0-9]+,' deep/out/effects.csv
@@ -86,7 +86,7 @@ check "predict says other than $after: $(row stdout residual)" \
 recordings 0 0.05 a.csv:60:1 b.csv:60:4 c.csv:60:8
 printf 'file;role;note\na.csv;fit;\nb.csv;fit;x\nc.csv;fit;\n' >list2.csv
 run 1 diagnose machine --runs list2.csv -o out2
-says ': ambiguous$' 'ambiguous +friction' 'ambiguous +torque_sensor' 'measure next'
+says ': ambiguous$' 'ambiguous +friction' 'ambiguous +errors of the torque sensor' 'measure next'
 check "an answer that is no is written all the same" [ -s out2/machine/effects.csv ]
 check "ambiguous ones: $(grep -c ambiguous out2/effects.csv)" [ "$(grep -c ',ambiguous,' out2/effects.csv)" -eq 2 ]
 

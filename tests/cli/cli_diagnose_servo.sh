@@ -55,9 +55,9 @@ run 0 init machine --pole-pairs 5 --volt-per-krpm 52 --slots 12 --resistance 0.9
 echo file,role >runs.csv
 for log in empty_there empty_back load_3 load_6 load_10 load_8 load_5; do echo "$log.csv,fit" >>runs.csv; done
 run 0 diagnose machine --runs runs.csv -o d
-says 'added +friction' 'added +cogging' 'added +back_emf' 'added +torque_sensor'
+says 'added +friction' 'added +cogging torque: order ' 'added +back-EMF: order ' 'added +errors of the torque sensor: '
 check "the search does not come to its end" grep -Eq '"search":[[:space:]]*"complete"' d/summary.json
-check "something is left" sh -c '! grep -q "left  *unknown" stdout'
+check "something is left" sh -c '! grep -q "left  *what is not known" stdout'
 
 # Friction is 0.060 + 2e-3 N·m s/rad · ω: 0.066 N·m at 30 rpm.
 brakes() {

@@ -30,13 +30,6 @@ static bool any(const hci_diagnosis *d, hci_finding_verdict verdict)
 
 /* Names of the findings of one verdict: "cogging, friction and reluctance". parts: those of them that are
  * only parts of others, or all but these. */
-/* As in a sentence: "cogging torque". */
-static const char *title_of(const char *effect)
-{
-    const hci_effect_type *type = hci_effect_type_find(effect);
-    return type ? type->title : effect;
-}
-
 static void say_names_of(const hci_words *w, const hci_diagnosis *d, hci_finding_verdict verdict, bool parts,
                          const char *last)
 {
@@ -49,7 +42,7 @@ static void say_names_of(const hci_words *w, const hci_diagnosis *d, hci_finding
                       k == 0           ? ""
                       : k + 1 == count ? last
                                        : ", ",
-                      title_of(d->finding[named[k]].effect));
+                      hci_finding_title(d->finding[named[k]].effect));
 }
 
 static void say_names(const hci_words *w, const hci_diagnosis *d, hci_finding_verdict verdict,
@@ -177,7 +170,7 @@ static void say_disbelieved(const hci_words *w, const hci_diagnosis *d)
 {
     if (!d->disbelieved) return;
     hci_words_say(w, " The recordings would fit %s, but with values that nobody would believe",
-                  title_of(d->disbelieved));
+                  hci_finding_title(d->disbelieved));
     if (d->disbelieved_share < BELIEVABLE)
         hci_words_say(w, " (it would leave %.2g of the declared torque per ampere of i_q)",
                       d->disbelieved_share);
@@ -216,7 +209,7 @@ static void say_not_taken(const hci_words *w, const hci_diagnosis *d)
         const hci_finding *f = &d->finding[k];
         if (!is_plain(f)) continue;
         hci_words_say(w, "%s %s (%.3g)", said == 0 ? " Decisive by ΔBIC and not taken:" : ",",
-                      title_of(f->effect), f->delta_bic);
+                      hci_finding_title(f->effect), f->delta_bic);
         ++said;
     }
     if (said > 0)
@@ -246,7 +239,7 @@ static void say_unstable(const hci_words *w, const hci_diagnosis *d)
         if (f->verdict == HCI_FINDING_REJECTED || f->stays == f->left_out) continue;
         if (hci_finding_is_part(d, f)) continue; /* said already */
         hci_words_say(w, " With one run, or part of one, left out %s is found in %zu of %zu cases.",
-                      title_of(f->effect), f->stays, f->left_out);
+                      hci_finding_title(f->effect), f->stays, f->left_out);
     }
 }
 

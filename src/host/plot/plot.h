@@ -127,10 +127,6 @@ void hci_plot_orders(hci_output *out, const hci_svg_box *box, const void *orders
 
 /* ---- plot_findings.c, plot_runs.c: of a diagnosis ---- */
 
-/* Of a finding that is added or ambiguous, the effect of the corrected machine and the term whose value is
- * the largest multiple of its standard error; NULL where none has one. */
-const hci_effect *hci_plot_clearest(const hci_diagnosis *diagnosis, const hci_finding *finding, size_t *term);
-
 /* rms torque that an effect alone explains; NAN where there is none. */
 double hci_plot_own_Nm(const hci_diagnosis *diagnosis, const hci_finding *finding);
 

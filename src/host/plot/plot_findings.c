@@ -19,24 +19,6 @@ size_t hci_plot_findings_shown(const hci_diagnosis *d, const hci_finding *shown[
     return rows;
 }
 
-const hci_effect *hci_plot_clearest(const hci_diagnosis *d, const hci_finding *f, size_t *term)
-{
-    const hci_effect *found = NULL;
-    double most = 0.0;
-    for (size_t k = 0; k < d->effects.list.count && f->verdict != HCI_FINDING_REJECTED; ++k) {
-        const hci_effect *e = &d->effects.list.effect[k];
-        if (strcmp(e->type->name, f->effect) != 0) continue;
-        for (size_t j = 0; j < e->count; ++j) {
-            const double clearness = fabs(e->term[j].value) / e->term[j].std_error;
-            if (!(e->term[j].std_error > 0.0) || !(clearness > most)) continue;
-            most = clearness;
-            *term = j;
-            found = e;
-        }
-    }
-    return found;
-}
-
 void hci_plot_term_name(char name[HCI_PLOT_NAME_SIZE], const hci_effect *effect, size_t term)
 {
     const hci_effect_term *t = &effect->term[term];
@@ -67,7 +49,7 @@ static void draw_finding(hci_output *out, const hci_diagnosis *d, const hci_find
                          const hci_svg_axis *x)
 {
     const double own_Nm = hci_plot_own_Nm(d, f), at = hci_svg_log_at(x, own_Nm);
-    hci_svg_tell(out, f->effect);
+    hci_svg_tell(out, hci_finding_title(f->effect));
     hci_svg_tell_value(out, ": by it alone ", own_Nm, "N·m");
     hci_svg_tell_more(out, ", ");
     hci_svg_tell_more(out, hci_finding_verdict_name(f->verdict));
@@ -116,7 +98,8 @@ void hci_plot_findings(hci_output *out, const hci_svg_box *area, const void *dia
     for (size_t k = 0; k < 3; ++k)
         draw_level(out, &x, &b, &levels[k]);
     for (size_t k = 0; k < rows; ++k) {
-        hci_rows_name(out, &b, k, shown[k]->verdict == HCI_FINDING_ADDED, shown[k]->effect);
+        hci_rows_name(out, &b, k, shown[k]->verdict == HCI_FINDING_ADDED,
+                      hci_finding_title(shown[k]->effect));
         draw_finding(out, d, shown[k], hci_rows_middle(&b, k), &x);
     }
     hci_rows_foot(out, &b, "N·m, logarithmic");

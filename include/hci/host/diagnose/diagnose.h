@@ -238,6 +238,15 @@ bool hci_finding_is_part(const hci_diagnosis *diagnosis, const hci_finding *find
 hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *declared, const hci_runs *runs,
                         const hci_diagnose_options *options, hci_diagnosis *diagnosis, hci_note *note);
 
+/* An effect as people call it, "reluctance torque" of `reluctance`, "what is not known" of `unknown`; a
+ * static string, or `effect` itself where it names none. */
+const char *hci_finding_title(const char *effect);
+
+/* Its values as people call them, at most the four that make most torque: "mean, L_dd = 0.00097 ± 1e-05 H;
+ * …", sine and cosine of an order as one amplitude; what an effect in its place is, or `detail`. size: of
+ * text, 512 will do. */
+void hci_finding_words(const hci_diagnosis *diagnosis, const hci_finding *finding, char *text, size_t size);
+
 /* The verdict as a few plain sentences. size: of text, 2048 will do. */
 void hci_diagnosis_words(const hci_diagnosis *diagnosis, char *text, size_t size);
 

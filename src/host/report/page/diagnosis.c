@@ -14,13 +14,6 @@ static bool is_named(const hci_diagnosis *d, const hci_finding *f, hci_finding_v
     return f->verdict == verdict && strcmp(f->effect, "unknown") != 0 && !hci_finding_is_part(d, f);
 }
 
-/* As people say it: files have the name. */
-static const char *title_of(const hci_finding *f)
-{
-    const hci_effect_type *type = hci_effect_type_find(f->effect);
-    return type ? type->title : f->effect;
-}
-
 /* "reluctance torque, saturation and back-EMF": what has a verdict and a name; "" for none. */
 static void names_of(const hci_diagnosis *d, hci_finding_verdict verdict, char text[NAMES_SIZE])
 {
@@ -34,7 +27,8 @@ static void names_of(const hci_diagnosis *d, hci_finding_verdict verdict, char t
                               : left > 1                     ? ", "
                               : verdict == HCI_FINDING_ADDED ? " and "
                                                              : " or ";
-        used += (size_t)snprintf(text + used, NAMES_SIZE - used, "%s%s", between, title_of(&d->finding[k]));
+        used += (size_t)snprintf(text + used, NAMES_SIZE - used, "%s%s", between,
+                                 hci_finding_title(d->finding[k].effect));
         --left;
     }
 }

@@ -59,7 +59,7 @@ static void table_of_effects(hci_output *out, const hci_again *a)
     for (size_t k = 0; k < a->effects; ++k) {
         const hci_again_effect *e = &a->effect[k];
         hci_html_row(out);
-        hci_html_cell(out, e->effect);
+        hci_html_cell(out, hci_finding_title(e->effect));
         hci_html_cell(out, hci_again_change_name(e->change));
         hci_html_number(out, e->deviations);
         hci_html_cell_words(out, e->words);

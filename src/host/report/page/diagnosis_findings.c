@@ -9,50 +9,37 @@
 #include "host/plot/rows.h"
 #include "host/report/page/diagnosis_sections.h"
 
-/* For an effect that is added or ambiguous, how it shows in a residual; parameters have a table of their
- * own. */
-static void cell_of_finding(hci_output *out, const hci_finding *f)
+/* How an effect that is added or ambiguous shows in a residual. */
+static void cell_of_signature(hci_output *out, const hci_finding *f)
 {
     const hci_effect_type *type = hci_effect_type_find(f->effect);
-    char text[HCI_DETAIL_SIZE + 16];
-    const bool rival = strncmp(f->detail, "in place of", 11) == 0;
-    snprintf(text, sizeof text, "%s", type && !rival ? type->signature : f->detail);
-    hci_html_cell_words(out, f->verdict == HCI_FINDING_REJECTED ? "" : text);
+    hci_html_cell_words(out, type && f->verdict != HCI_FINDING_REJECTED ? type->signature : "");
 }
 
-/* The value that is known best, and how well: the interval holds it with 95 %. */
-static void cell_of_certainty(hci_output *out, const hci_diagnosis *d, const hci_finding *f)
+/* Its values in words; why it was rejected stands beside. */
+static void cell_of_values(hci_output *out, const hci_diagnosis *d, const hci_finding *f)
 {
-    char text[2 * HCI_PLOT_NAME_SIZE] = "", name[HCI_PLOT_NAME_SIZE], value[HCI_HTML_NUMBER_SIZE],
-                  half[HCI_HTML_NUMBER_SIZE];
-    size_t term;
-    const hci_effect *e = hci_plot_clearest(d, f, &term);
-    if (e) {
-        hci_plot_term_name(name, e, term);
-        hci_html_number_text(value, e->term[term].value);
-        hci_html_number_text(half, 1.96 * e->term[term].std_error);
-        snprintf(text, sizeof text, "%.40s = %s ± %s %.20s", name, value, half,
-                 e->type->parameter[e->term[term].parameter].unit);
-    }
+    char text[HCI_DETAIL_SIZE] = "";
+    if (f->verdict != HCI_FINDING_REJECTED) hci_finding_words(d, f, text, sizeof text);
     hci_html_cell_words(out, text);
 }
 
 static void table_of_findings(hci_output *out, const hci_diagnosis *d)
 {
     static const char *const COLUMN[] = {
-        "Rank",          "<Effect", "<Verdict", "ΔBIC", "By it alone N·m", "<Clearest value ± 95 %",
+        "Rank",          "<Effect", "<Verdict", "ΔBIC", "By it alone N·m", "<Largest values ± standard error",
         "<How it shows", NULL};
     hci_html_table(out, "Effects in order of importance", COLUMN);
     for (size_t k = 0; k < d->findings; ++k) {
         const hci_finding *f = &d->finding[k];
         hci_html_row(out);
         hci_html_number(out, (double)(k + 1));
-        hci_html_cell(out, f->effect);
+        hci_html_cell(out, hci_finding_title(f->effect));
         hci_html_cell(out, hci_finding_verdict_name(f->verdict));
         hci_html_number(out, hci_finding_delta_bic(f));
         hci_html_number(out, hci_plot_own_Nm(d, f));
-        cell_of_certainty(out, d, f);
-        cell_of_finding(out, f);
+        cell_of_values(out, d, f);
+        cell_of_signature(out, f);
         hci_html_row_end(out);
     }
     hci_html_table_end(out);
@@ -64,8 +51,9 @@ static void say_rejected(hci_output *out, const hci_diagnosis *d)
     char text[1024] = "";
     for (size_t k = 0; k < d->findings; ++k) {
         const size_t used = strlen(text);
-        if (d->finding[k].verdict == HCI_FINDING_REJECTED)
-            snprintf(text + used, sizeof text - used, "%s%s", used > 0 ? ", " : "", d->finding[k].effect);
+        if (d->finding[k].verdict == HCI_FINDING_REJECTED && strcmp(d->finding[k].effect, "unknown") != 0)
+            snprintf(text + used, sizeof text - used, "%s%s", used > 0 ? ", " : "",
+                     hci_finding_title(d->finding[k].effect));
     }
     if (text[0]) hci_html_say(out, "quiet", "Looked for and not needed: %s.", text);
 }

@@ -65,7 +65,7 @@ static void show_group(hci_output *out, const hci_diagnosis *d, const term_group
     char caption[200];
     for (size_t k = 0; k < g->effect->count; ++k)
         all += term_weight(g, k) > 0.0;
-    snprintf(caption, sizeof caption, "%.40s (%s): %s%zu of %zu values in this unit", name,
+    snprintf(caption, sizeof caption, "%.40s (%s): %s%zu of %zu values in this unit", hci_finding_title(name),
              is_found(d, name) ? "found" : "declared", count < all ? "the largest " : "", count, all);
     hci_html_paragraph(out, NULL, g->effect->type->equation);
     table_of_terms(out, caption, g->effect, term, count);

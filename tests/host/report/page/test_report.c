@@ -293,7 +293,7 @@ static void test_new_recordings(void)
     TEST_ASSERT_EQUAL_STRING("runs/8.csv 0.5 0.03 0.02 no 0.01 0.005 ", text_row(page, RUNS_TABLE, 0));
     TEST_ASSERT_EQUAL_STRING("runs/9.csv 0.4 0.015 0.025 yes 0.012 0.006 ", text_row(page, RUNS_TABLE, 1));
     TEST_ASSERT_EQUAL_INT(2, text_rows(page, RUNS_TABLE));
-    TEST_ASSERT_EQUAL_STRING("cogging changed 3.5 0.1, then 0.2 ", text_row(page, EFFECTS, 0));
+    TEST_ASSERT_EQUAL_STRING("cogging torque changed 3.5 0.1, then 0.2 ", text_row(page, EFFECTS, 0));
     TEST_ASSERT_EQUAL_STRING("friction came –  ", text_row(page, EFFECTS, 1));
     again.bounded = 0;
     fresh[0].bound_Nm = fresh[1].bound_Nm = NAN;
@@ -480,7 +480,7 @@ static void test_marks_of_findings(void)
     const double before = number_after(level, "d=\"M"),
                  after = number_after(strstr(page, "<title>error after: 4 mN·m</title>"), "d=\"M");
     const double dot =
-        number_after(strstr(page, "<title>cogging: by it alone 0.5692 N·m, added</title>"), "cx=\"");
+        number_after(strstr(page, "<title>cogging torque: by it alone 0.5692 N·m, added</title>"), "cx=\"");
     TEST_ASSERT_DOUBLE_WITHIN(0.05, (dot - after) / (before - after), log(own_Nm / 0.004) / log(0.6 / 0.004));
     text_lacks("friction", page);
     text_lacks("by it or another", page);
@@ -637,21 +637,42 @@ static void test_what_was_not_computed(void)
     text_has("friction</td><td class=\"text\">ambiguous</td><td><data value=\"0\">0</data></td>", page);
 }
 
-/* Of all values of an effect the one that is the largest multiple of its error; none for what was rejected.
- */
-static void test_clearest_value(void)
+/* Sine and cosine of an order are one amplitude, the largest four stand first, and effects have the names
+ * that people use. */
+static void test_values_are_in_words(void)
 {
-    size_t at = 0;
-    term[7].std_error = 1e-6;
-    term[8].std_error = 0.0;
-    TEST_ASSERT_EQUAL_PTR(&effect, hci_plot_clearest(&diagnosis, &diagnosis.finding[0], &at));
-    TEST_ASSERT_EQUAL_UINT64(7, at);
-    TEST_ASSERT_NULL(hci_plot_clearest(&diagnosis, &diagnosis.finding[1], &at));
     write_diagnosis(NULL);
-    text_has("sine_4 = 0.08 ± 1.96e−6 ", page); /* the 8th is the second of order 4 */
-    for (size_t k = 0; k < TERMS; ++k)
-        term[k].std_error = NAN;
-    TEST_ASSERT_NULL(hci_plot_clearest(&diagnosis, &diagnosis.finding[0], &at));
+    text_has("<td class=\"text\">cogging torque</td><td class=\"text\">added</td>", page);
+    text_has("order 9 = 0.2476 ± 0.0003 N·m; order 8 = 0.2193 ± 0.0003 N·m", page);
+    text_has("and 6 more in effects.csv", page);
+    text_lacks("sine_9 = ", page);
+}
+
+/* Of an inductance the mean has its sign, an order n makes n times the torque, and what is in the place of
+ * another effect has its name and no value of the machine. */
+static void test_inductances_in_words(void)
+{
+    const hci_effect_type *type = hci_effect_type_find("reluctance");
+    hci_effect_term value[] = {{.parameter = 4, .order = 6.0, .value = 3e-6, .std_error = 1e-7},
+                               {.parameter = 1, .order = 0.0, .value = -2e-3, .std_error = 1e-5},
+                               {.parameter = 5, .order = 6.0, .value = -4e-6, .std_error = 2e-7},
+                               {.parameter = 3, .order = 0.0, .value = 1e-5, .std_error = 1e-6},
+                               {.parameter = 5, .order = 12.0, .value = 1e-6, .std_error = 1e-7},
+                               {.parameter = 5, .order = 18.0, .value = 1e-7, .std_error = 1e-7}};
+    hci_effect found = {.type = type, .term = value, .count = sizeof value / sizeof *value};
+    char text[HCI_DETAIL_SIZE];
+    diagnosis.effects.list = (hci_effects){.effect = &found, .count = 1};
+    diagnosis.finding[0].effect = "reluctance";
+    hci_finding_words(&diagnosis, &diagnosis.finding[0], text, sizeof text);
+    TEST_ASSERT_EQUAL_STRING("mean, L_dd = -0.002 ± 1e-05 H; order 6, L_qq = 5e-06 ± 2e-07 H; "
+                             "order 12, L_qq = 1e-06 ± 1e-07 H; mean, L_dq = 1e-05 ± 1e-06 H; "
+                             "and 1 more in effects.csv",
+                             text);
+    diagnosis.finding[1] = (hci_finding){.effect = "saturation",
+                                         .verdict = HCI_FINDING_AMBIGUOUS,
+                                         .detail = "in place of back_emf: d1q2_cosine_0 = 1 ± 0.1 Nm"};
+    hci_finding_words(&diagnosis, &diagnosis.finding[1], text, sizeof text);
+    TEST_ASSERT_EQUAL_STRING("in place of back-EMF; values in effects.csv", text);
 }
 
 /* ---- colours ---- */
@@ -953,7 +974,8 @@ int main(void)
     RUN_TEST(test_digits_above);
     RUN_TEST(test_digits_in_a_column);
     RUN_TEST(test_what_was_not_computed);
-    RUN_TEST(test_clearest_value);
+    RUN_TEST(test_values_are_in_words);
+    RUN_TEST(test_inductances_in_words);
     RUN_TEST(test_contrast);
     RUN_TEST(test_solution);
     RUN_TEST(test_solution_within_limits);
