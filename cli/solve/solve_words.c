@@ -184,6 +184,9 @@ static void show_expected(const hci_solution *s)
 {
     char words[1024];
     hci_expected_ripple_words(&s->expected, words, sizeof words);
+    if (hci_solution_is_boundless(s))
+        snprintf(words, sizeof words,
+                 "Ripple not known: the recordings bound it by no less than the torque itself.");
     cli_say("  on the real machine\n");
     cli_say_paragraph(4, words);
     if (is_new_id(&s->expected))

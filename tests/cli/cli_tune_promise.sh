@@ -184,6 +184,9 @@ bench_log noisy_more 5.5 -250 noisy
 says 'on the machine it is not known: the recordings bound it by no less than the torque itself'
 check "a bound above the torque" [ "$(grep -c 'at most [0-9.]* N·m' stdout)" -eq 0 ]
 check "a bound above the torque in a report" [ "$(grep -c 'Ripple at most' noisy_tuned/report.html noisy_tuned/currents/report.html | grep -vc ':0$')" -eq 0 ]
+"$hci_solve" solve noisy_tuned/diagnose/machine --target noisy_tuned/target.csv --method pointwise --current-angle 0 >stdout 2>stderr
+says 'Ripple not known: the recordings bound it by no less than the torque itself'
+check "solve has a bound above the torque" [ "$(grep -c 'Ripple at most' stdout)" -eq 0 ]
 noise=2
 # gains of three sensors have a share in common, which the back-EMF may have instead; offsets are those of these sensors
 cp -r magnets gains

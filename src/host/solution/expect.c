@@ -70,3 +70,12 @@ hci_status hci_solution_expect(const hci_machine *machine, const hci_solve_optio
     hci_memory_free(torque_Nm);
     return status;
 }
+
+bool hci_solution_is_boundless(const hci_solution *s)
+{
+    const bool has_mean = s->order_count > 0 && s->order[0].torque_Nm.order < HCI_ORDER_TOLERANCE;
+    const double mean_Nm = has_mean ? fabs(s->order[0].torque_Nm.cosine) : 0.0;
+    const double before_Nm = 0.01 * fabs(s->T_ripple_before_percent) * mean_Nm;
+    return s->expected.state == HCI_RIPPLE_KNOWN && mean_Nm > s->tolerance_Nm &&
+           hci_ripple_bound_as_said(s->expected.peak_to_peak_Nm) > fmax(mean_Nm, before_Nm);
+}

@@ -278,6 +278,10 @@ typedef struct {
 hci_status hci_solve(const hci_machine_data *machine, const hci_solve_options *options,
                      hci_solution *solution, hci_note *note);
 
+/* Whether the bound of `expected`, as it is said, is above the mean torque and above the ripple of the plain
+ * sine, so that it tells nothing. */
+bool hci_solution_is_boundless(const hci_solution *solution);
+
 /* Frees what a solution holds and empties it. */
 void hci_solution_release(hci_solution *solution);
 

@@ -113,22 +113,13 @@ static void cell_of_ripple(char text[CELL_SIZE], const hci_solution *s, double s
         snprintf(text, CELL_SIZE, "%s", in_Nm);
 }
 
-/* Whether the bound is above the torque, and above the ripple without these currents. */
-static bool is_boundless(const hci_solution_page *p)
-{
-    const hci_solution *s = p->solution;
-    const double bound_Nm = hci_ripple_bound_as_said(s->expected.peak_to_peak_Nm);
-    return s->expected.state == HCI_RIPPLE_KNOWN && fabs(mean_Nm(s)) > s->tolerance_Nm &&
-           bound_Nm > fmax(fabs(mean_Nm(s)), swing_Nm(p->facts.before_Nm));
-}
-
 /* As the sentences below the table say it. */
 static void cell_of_bound(char text[CELL_SIZE], const hci_solution_page *p)
 {
     const hci_solution *s = p->solution;
     const double bound_Nm = hci_ripple_bound_as_said(s->expected.peak_to_peak_Nm);
     char in_Nm[HCI_PAGE_SWING_SIZE];
-    if (is_boundless(p)) {
+    if (hci_solution_is_boundless(p->solution)) {
         snprintf(text, CELL_SIZE, "not known|bounded by no less than the torque itself");
         return;
     }
@@ -223,7 +214,7 @@ void hci_page_before_and_after(const hci_solution_page *p)
     row_of_voltage(p);
     hci_html_compare_end(p->out);
     hci_expected_ripple_words(&s->expected, expected, sizeof expected);
-    if (is_boundless(p))
+    if (hci_solution_is_boundless(p->solution))
         snprintf(expected, sizeof expected,
                  "Ripple not known: the recordings bound it by no less than the torque itself.");
     hci_html_say(p->out, "quiet", "On the real machine: %s", expected);
