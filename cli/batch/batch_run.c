@@ -13,6 +13,7 @@
 #include "cli/command/command.h"
 #include "cli/command/jobs.h"
 #include "cli/terminal/progress.h"
+#include "cli/terminal/say.h"
 #include "cli/terminal/signals.h"
 #include "hci/version.h"
 
@@ -236,26 +237,54 @@ static bool goes_on(void *context)
 
 /* ---- all of it ---- */
 
+/* A result that is no whole is told and is done again. What another share has to do is left to it, and after
+ * Ctrl-C nothing more is looked at. */
+static hci_status check(crew *c, size_t motor, const char *row, bool *is_done, hci_note *note)
+{
+    const hci_fleet_digest digest = digest_of(c->work->batch, motor);
+    if (!cli_shard_has(&c->work->shard, motor) || cli_signals_deferred(NULL)) return HCI_OK;
+    const hci_status status = hci_fleet_check(&c->work->results, motor, &digest, row, note);
+    if (status != HCI_ERROR_INPUT) return status;
+    cli_progress_end();
+    cli_remark(note);
+    note->text[0] = '\0';
+    *is_done = false;
+    return hci_fleet_forget(&c->work->results, motor, note);
+}
+
+/* A motor that is done already, as far as it counts. */
+static hci_status take_known(crew *c, size_t motor, bool *is_done, hci_note *note)
+{
+    cli_batch_work *w = c->work;
+    const hci_fleet_digest digest = digest_of(w->batch, motor);
+    char row[HCI_FLEET_ROW_SIZE];
+    hci_status status = hci_fleet_known(&w->results, motor, &digest, row, is_done, note);
+    if (!status && *is_done && w->retries && hci_fleet_row_state(row) > HCI_FLEET_OPEN) {
+        status = hci_fleet_forget(&w->results, motor, note);
+        *is_done = false;
+    }
+    if (!status && *is_done) status = check(c, motor, row, is_done, note);
+    if (!status && *is_done) take_row(c, motor, row, NAN);
+    return status;
+}
+
 /* What is done already, and what is to be done. */
 static hci_status list_items(crew *c, hci_note *note)
 {
     cli_batch_work *w = c->work;
+    const size_t motors = w->batch->list.count;
+    cli_work unit = {(double)motors, "motors"};
     hci_status status = HCI_OK;
-    for (size_t k = 0; k < w->batch->list.count && !status; ++k) {
-        const hci_fleet_digest digest = digest_of(w->batch, k);
-        char row[HCI_FLEET_ROW_SIZE];
+    for (size_t k = 0; k < motors && !status; ++k) {
         bool is_done;
-        status = hci_fleet_known(&w->results, k, &digest, row, &is_done, note);
-        if (!status && is_done && w->retries && hci_fleet_row_state(row) > HCI_FLEET_OPEN) {
-            status = hci_fleet_forget(&w->results, k, note);
-            is_done = false;
-        }
-        if (status) return status;
-        if (is_done) take_row(c, k, row, NAN);
-        if (!is_done && cli_shard_has(&w->shard, k)) c->item[c->items++] = k;
+        cli_progress(&unit, "checking what is done", (double)k / (double)motors);
+        status = take_known(c, k, &is_done, note);
+        if (!status && !is_done && cli_shard_has(&w->shard, k)) c->item[c->items++] = k;
     }
+    cli_progress_end();
     c->taken = 0;
-    return c->status ? hci_note_set(note, c->status, "%s", c->note.text) : status;
+    if (status) return status;
+    return c->status ? hci_note_set(note, c->status, "%s", c->note.text) : HCI_OK;
 }
 
 static hci_status do_motors(crew *c, hci_note *note)

@@ -1,6 +1,6 @@
 #!/bin/sh
 # `batch`: words that belong together, one row and one folder a motor, bad motors, a motor that hangs, a process that is ended from outside,
-# shares, and that a batch which is killed again and again ends with the bytes of one that was left alone.
+# shares, results that are a mixture, and that a batch which is killed again and again ends with the bytes of one that was left alone.
 #   cli_batch.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"
 . "$1/tests/cli/small_machine.sh"
@@ -69,6 +69,34 @@ says 'add --out'
     check "the mended motor is not done" grep -q '^bad,.*,done,0,reached' "$work/again/fleet.csv"
     rm "$work/none"
 }
+
+# ---- results that are a mixture: each is told by its file, and done again, and nothing else is
+
+cp -Rp "$work/one" "$work/mixed"
+sed 's/0/1/' "$work/mixed/motors/m01/currents.csv" >"$work/edited.csv"
+cp "$work/edited.csv" "$work/mixed/motors/m01/currents.csv"
+rm "$work/mixed/motors/m02/waveform.csv"
+rm "$work/mixed/motors/m03/summary.json"
+head -c 100 "$work/one/motors/m04/summary.json" >"$work/mixed/motors/m04/summary.json" # of a copy that broke off
+sed 's/^0,2,/0,3,/' "$t" >"$work/other.csv"
+"$hci_solve" solve "$m" --target "$work/other.csv" --harmonics "$h" -q -o "$work/mixed/motors/m06" # by hand, and it is no row
+sed 's/,done,0,/,done,0,not /' "$work/one/motors/m07/motor.csv" >"$work/mixed/motors/m07/motor.csv"
+cp -Rp "$work/mixed" "$work/mixed_share"
+touch "$work/begun"
+# shellcheck disable=SC2086
+run 1 $batch --jobs 1 -o "$work/mixed"
+says 'm01/currents.csv: found a file with the checksum [0-9 ]+, expected [0-9 ]+, as summary.json beside it says: .*; this motor is done again$' \
+    'm02/waveform.csv: cannot be read \(No such file or directory\), expected the file that summary.json beside it names; this motor is' \
+    'm03/summary.json: found none with the checksums of the files beside it' 'm04/summary.json: found none with the checksums' \
+    'm06/motor.csv: found other figures than the files beside it have' 'm07/motor.csv: found other figures than the files'
+check "motors that are told: $(grep -c 'done again' "$work/stderr")" [ "$(grep -c 'done again' "$work/stderr")" -eq 6 ]
+check "a mixture is not done again" diff -r -x fleet.sqlite "$work/one" "$work/mixed"
+check "a whole result was done again" [ -z "$(find "$work/mixed/motors/m05" "$work/mixed/motors/m08" "$work/mixed/motors/bad" -type f -newer "$work/begun")" ]
+# shellcheck disable=SC2086
+run 1 $batch --shard 2/4 -o "$work/mixed_share"
+check "motors of a share that are told: $(cat "$work/stderr")" [ "$(grep -o 'm[0-9]*/[a-z]*\.[a-z]*: ' "$work/stderr")" = "m02/waveform.csv: 
+m06/motor.csv: " ]
+check "what another share has to do was taken away" cmp -s "$work/edited.csv" "$work/mixed_share/motors/m01/currents.csv"
 
 # ---- killed at any time, and gone on
 
@@ -192,6 +220,24 @@ assert abs(float(magnets["value"]) + 0.03) < 3 * float(magnets["std_error"]) < 0
 PY
 run 0 batch "$work/fit/motors.csv" --command fit --jobs 1 -q -o "$work/fit/batch"
 check "fleet.csv of a fit: $(cat "$work/fit/batch/fleet.csv")" grep -q '^one,.*,done,0,,"1 of 3 recordings are not used; .*; 3 rows .*",1021,1,3,' "$work/fit/batch/fleet.csv"
+
+# Of a diagnosis the folders within; and what fleet reads.
+run 0 fleet "$work/fit/batch" -o "$work/fit/out_batch"
+cp -R "$work/fit/batch" "$work/fit/mixed"
+sed -i 's/^back_emf,common,/&1/' "$work/fit/mixed/motors/one/parameters.csv"
+run 3 fleet "$work/fit/mixed" -o "$work/fit/out_mixed"
+says 'one/parameters.csv: found a file with the checksum [0-9 ]+, expected [0-9 ]+, .*; the same hci-solve batch again writes it anew$'
+check "a line of a mixture was written" [ ! -e "$work/fit/out_mixed" ]
+run 0 batch "$work/fit/motors.csv" --command fit --jobs 1 -o "$work/fit/mixed"
+says 'one/parameters.csv: found a file with the checksum .*; this motor is done again$'
+check "a fit that is a mixture" diff -r -x fleet.sqlite "$work/fit/batch" "$work/fit/mixed"
+sed -i 's/,done,/,open,/' "$work/fit/mixed/fleet.csv"
+run 3 fleet "$work/fit/mixed" -o "$work/fit/out_mixed"
+says 'mixed/fleet.csv: found a file with the checksum [0-9 ]+, expected [0-9 ]+, .*; the same hci-solve batch again writes it anew$'
+"$hci_solve" batch "$work/fit/motors.csv" --command diagnose --jobs 1 -q -o "$work/fit/diagnosed"
+sed -i 's/^back_emf,common,/&1/' "$work/fit/diagnosed/motors/one/fit/parameters.csv"
+"$hci_solve" batch "$work/fit/motors.csv" --command diagnose --jobs 1 -o "$work/fit/diagnosed" >"$work/stdout" 2>"$work/stderr"
+says 'one/fit/parameters.csv: found a file with the checksum .*; this motor is done again$'
 
 # ---- limits: pass, fail, not told; the voltages of open terminals tell the magnets
 

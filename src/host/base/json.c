@@ -134,3 +134,15 @@ bool hci_json_find_text(const char *text, const char *object, const char *name, 
     cJSON_Delete(all);
     return found;
 }
+
+bool hci_json_each_text(const char *text, const char *object,
+                        bool (*take)(void *context, const char *name, const char *value), void *context)
+{
+    cJSON *all = parsed(text);
+    const cJSON *in = find(all, NULL, object), *item;
+    const bool found = cJSON_IsObject(in);
+    for (item = found ? in->child : NULL; item; item = item->next)
+        if (cJSON_IsString(item) && !take(context, item->string, item->valuestring)) break;
+    cJSON_Delete(all);
+    return found;
+}

@@ -45,4 +45,9 @@ bool hci_json_find_number(const char *text, const char *object, const char *name
 /* Likewise a text of less than `size` bytes. */
 bool hci_json_find_text(const char *text, const char *object, const char *name, char *value, size_t size);
 
+/* Calls `take` with each text in the object `object` of a text, in their order, until it returns false. False
+ * where the text is no JSON or has no such object. */
+bool hci_json_each_text(const char *text, const char *object,
+                        bool (*take)(void *context, const char *name, const char *value), void *context);
+
 #endif

@@ -2,7 +2,6 @@
 
 #include "hci/host/currents/solution_folder.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,9 +9,9 @@
 
 #include "hci/host/base/output.h"
 #include "hci/host/csv/csv.h"
-#include "host/base/checksum.h"
 #include "host/base/json.h"
 #include "host/base/memory.h"
+#include "host/base/own_files.h"
 #include "host/base/quote.h"
 #include "host/base/whole_file.h"
 
@@ -46,32 +45,14 @@ static char *summary_of(const char *folder)
     return path_of(folder, HCI_SOLUTION_SUMMARY, path, NULL) ? NULL : hci_whole_file(path);
 }
 
-/* Whether a file is the one that was written with the summary, as far as that tells. */
-static hci_status check_file(const char *summary, const char *path, hci_solution_file file, hci_note *note)
-{
-    char wanted[HCI_CHECKSUM_SIZE], found[HCI_CHECKSUM_SIZE], shown[HCI_QUOTE_PATH_SIZE];
-    if (!hci_json_find_text(summary, "checksums", hci_solution_file_name(file), wanted, sizeof wanted))
-        return HCI_OK;
-    if (!hci_checksum_file(path, found))
-        return errno == ENOMEM ? hci_note_memory(note, path, "reading it") : HCI_OK;
-    if (strcmp(wanted, found) == 0) return HCI_OK;
-    return hci_note_set(
-        note, HCI_ERROR_INPUT,
-        "%s: found a file with the checksum %s, expected %s, as summary.json beside it says: it was "
-        "edited, or is of another run; solve again, or give the path of this file alone to use it "
-        "as it is",
-        hci_quote_path(path, shown), found, wanted);
-}
+#define REMEDY "solve again, or give the path of this file alone to use it as it is"
 
 /* The path of a file of a folder of results, which is to be the one that was written with the others. */
 static hci_status find_file(const char *folder, hci_solution_file file, char path[PATH_SIZE], hci_note *note)
 {
     hci_output_finish_interrupted(folder);
     hci_status status = path_of(folder, file, path, note);
-    char *summary = status ? NULL : summary_of(folder);
-    if (summary) status = check_file(summary, path, file, note);
-    hci_memory_free(summary);
-    return status;
+    return status ? status : hci_own_file_check_beside(path, REMEDY, note);
 }
 
 bool hci_solution_has_parts(const char *folder)

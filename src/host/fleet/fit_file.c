@@ -7,6 +7,8 @@
 #include "hci/host/base/output.h"
 #include "hci/host/csv/csv.h"
 #include "hci/host/fleet/fit.h"
+#include "host/base/own_files.h"
+#include "host/fleet/row.h"
 #include "host/machine/folder.h"
 #include "host/report/summary.h"
 
@@ -141,5 +143,6 @@ hci_status hci_fleet_fit_read(const char *folder, hci_fleet_fit *fit, bool *is_t
         (void)hci_json_find_number(summary, NULL, "rms_after_Nm", &fit->rms_after_Nm);
     }
     hci_text_free(summary);
-    return read_rows(path, fit, note);
+    status = hci_own_file_check_beside(path, HCI_FLEET_BATCH_AGAIN, note);
+    return status ? status : read_rows(path, fit, note);
 }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/base/own_files.h"
 #include "host/base/whole_file.h"
 #include "host/fleet/dates.h"
 #include "host/fleet/row.h"
@@ -90,6 +91,8 @@ static hci_status read_folder(const char *folder, hci_line *line, rows *r, hci_n
     if (!text && hci_memory_was_short()) return hci_note_memory(note, path, "reading it");
     if (!text) return wrong(path, "cannot be read", note);
     line->text[line->texts++] = text;
+    const hci_status status = hci_own_file_check_beside(path, HCI_FLEET_BATCH_AGAIN, note);
+    if (status) return status;
     const int command = command_of(text, r->header);
     if (command == COMMANDS) return wrong(path, "found another header", note);
     if (line->texts > 1 && command != (int)line->command)

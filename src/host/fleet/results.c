@@ -11,12 +11,15 @@
 #include "host/base/folder.h"
 #include "host/base/folder_lock.h"
 #include "host/base/memory.h"
+#include "host/base/own_files.h"
 #include "host/base/sync.h"
 #include "host/base/whole_file.h"
 #include "host/fleet/row.h"
 
 #define MOTORS "motors"
 #define ROW    "motor.csv"
+
+#define DONE_AGAIN "this motor is done again"
 
 enum { PATH_SIZE = 4096, WAIT_MS = 10000 };
 
@@ -171,6 +174,32 @@ hci_status hci_fleet_known(const hci_fleet_results *results, size_t motor, const
     hci_memory_free(text);
     *is_done = !status;
     return status;
+}
+
+/* Whether the row says what the files beside it say. */
+static hci_status check_row(const hci_fleet_results *r, size_t motor, const hci_fleet_digest *digest,
+                            const char *path, const char *row, hci_note *note)
+{
+    const hci_fleet_outcome outcome = {.state = hci_fleet_row_state(row), .exit_code = -1};
+    char made[HCI_FLEET_ROW_SIZE];
+    hci_fleet_row_make(r, motor, &outcome, digest, path, made);
+    if (hci_memory_was_short()) return hci_note_memory(note, path, "its row");
+    if (strcmp(hci_fleet_row_findings(made), hci_fleet_row_findings(row)) == 0) return HCI_OK;
+    return hci_note_set(note, HCI_ERROR_INPUT,
+                        "%.300s/" ROW ": found other figures than the files beside it have, expected the row "
+                        "that was written with them; " DONE_AGAIN,
+                        path);
+}
+
+hci_status hci_fleet_check(const hci_fleet_results *results, size_t motor, const hci_fleet_digest *digest,
+                           const char *row, hci_note *note)
+{
+    char path[PATH_SIZE];
+    hci_status status = path_of(results, motor, "", path, note);
+    if (status || hci_fleet_row_state(row) > HCI_FLEET_OPEN) return status;
+    hci_output_finish_interrupted(path);
+    status = hci_own_folder_check(path, DONE_AGAIN, note);
+    return status ? status : check_row(results, motor, digest, path, row, note);
 }
 
 hci_fleet_state hci_fleet_row_state(const char *row)

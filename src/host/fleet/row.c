@@ -9,7 +9,7 @@
 #include "host/base/json.h"
 #include "host/base/words.h"
 
-enum { PATH_SIZE = 4096, CELL_SIZE = 256 };
+enum { PATH_SIZE = 4096, CELL_SIZE = 256, BEFORE_FINDINGS = 6 /* columns, to exit_code */ };
 
 /* ---- figures of a summary ---- */
 
@@ -176,4 +176,12 @@ void hci_fleet_row_cell(const char *row, const char *header, const char *column,
         if (strcmp(name, column) == 0) return;
     }
     cell[0] = '\0';
+}
+
+const char *hci_fleet_row_findings(const char *row)
+{
+    char cell[HCI_FLEET_ROW_SIZE];
+    for (int k = 0; k < BEFORE_FINDINGS && row; ++k)
+        row = next_cell(row, cell, sizeof cell);
+    return row ? row : "";
 }

@@ -93,6 +93,12 @@ hci_status hci_fleet_end(const hci_fleet_results *results, size_t motor, const h
 hci_status hci_fleet_known(const hci_fleet_results *results, size_t motor, const hci_fleet_digest *digest,
                            char row[HCI_FLEET_ROW_SIZE], bool *is_done, hci_note *note);
 
+/* Whether the results of a motor that is done are one whole: each file that its summary.json names is the one
+ * that was written with it, also in the folders within, and the row says what they say. HCI_ERROR_INPUT where
+ * they are not, the note tells by which file; _MEMORY. A motor without a result has none that could be. */
+hci_status hci_fleet_check(const hci_fleet_results *results, size_t motor, const hci_fleet_digest *digest,
+                           const char *row, hci_note *note);
+
 /* The state in a row. */
 hci_fleet_state hci_fleet_row_state(const char *row);
 
