@@ -178,10 +178,10 @@ static double told_at(const comparison *c, size_t k)
     return sum;
 }
 
-static void pair_words(const pair *p, size_t k, bool first, hci_next_point *to)
+static void pair_words(const pair *p, size_t k, hci_next_point *to)
 {
     const hci_verdict *v = p->verdict;
-    if (!first) hci_words_say(&(hci_words){to->why, sizeof to->why}, "; ");
+    if (to->why[0]) hci_words_say(&(hci_words){to->why, sizeof to->why}, "; ");
     if (v->in)
         hci_words_say(&(hci_words){to->why, sizeof to->why}, "shows whether there is %s (χ² %.3g)",
                       v->type->name, p->chi_square[k]);
@@ -194,14 +194,12 @@ static void pair_words(const pair *p, size_t k, bool first, hci_next_point *to)
 static void point_take(comparison *c, size_t k, hci_diagnosis *d)
 {
     hci_next_point *to = row_of(d, &c->playable, &c->point[k]);
-    bool first = true;
     for (size_t j = 0; j < c->pairs && to; ++j) {
         pair *p = &c->pair[j];
         if (p->wanted == 0 || !(p->chi_square[k] > HCI_NOTHING)) continue;
         to->turns = fmax(to->turns, p->turns[k]);
         to->chi_square += p->chi_square[k];
-        pair_words(p, k, first, to);
-        first = false;
+        pair_words(p, k, to);
         --p->wanted;
     }
 }

@@ -2,6 +2,7 @@
 /* What is to be recorded next lies within reach, and recorded, it tells what was open. Each case diagnoses
  * twice, before and after that recording: a second each, which sanitizers make ten. */
 #include <math.h>
+#include <string.h>
 
 #include "host/base/memory.h"
 
@@ -130,6 +131,25 @@ static void test_friction_is_told_from_the_zero_of_the_sensor(void)
     is_told("friction", "torque_sensor");
 }
 
+/* At 0.1 rad/s no slower one is asked for. */
+static void test_a_point_says_each_reason_once(void)
+{
+    brake_Nm = 0.05;
+    for (int k = 0; k < 3; ++k)
+        play(0.0, 3.0 * k, 0.1, 450);
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_GREATER_THAN_UINT64(1, diagnosis.next_points); /* no answer is to hang on one run */
+    for (size_t k = 0; k < diagnosis.next_points; ++k) {
+        const char *why = diagnosis.next[k].why;
+        int reasons = 0;
+        for (const char *at = why; (at = strstr(at, "tells friction from torque_sensor")) != NULL; ++at)
+            ++reasons;
+        TEST_ASSERT_EQUAL_INT(1, reasons);
+        for (const char *end = why; (end = strchr(end, ')')) != NULL; ++end)
+            TEST_ASSERT_TRUE(end[1] == '\0' || (end[1] == ';' && end[2] == ' '));
+    }
+}
+
 static void test_the_zero_of_the_sensor_is_told_from_friction(void)
 {
     offset_Nm = -0.05;
@@ -188,6 +208,7 @@ int main(void)
     RUN_TEST(test_nothing_is_asked_for_where_nothing_is_open);
     RUN_TEST(test_holding_tests_ask_for_holding_tests);
     RUN_TEST(test_friction_is_told_from_the_zero_of_the_sensor);
+    RUN_TEST(test_a_point_says_each_reason_once);
     RUN_TEST(test_the_zero_of_the_sensor_is_told_from_friction);
     RUN_TEST(test_how_what_is_unknown_grows_is_told);
     RUN_TEST(test_the_other_direction_is_asked_for);

@@ -142,7 +142,8 @@ static double neat(double x)
     return digits > 0.0 ? whole / scale : whole * scale;
 }
 
-/* One current at the slow and the fast speed, forward and backward. Returns how many points there are then.
+/* One current at the slow and the fast speed, where that is another one, forward and backward. Returns how
+ * many points there are then.
  */
 static size_t both_ways(const hci_playable *x, double id_A, double iq_A, size_t count,
                         hci_operating_point *point)
@@ -150,7 +151,9 @@ static size_t both_ways(const hci_playable *x, double id_A, double iq_A, size_t 
     const double current_A = hypot(id_A, isfinite(iq_A) ? iq_A : 0.0);
     const double speed[] = {neat(x->least_rad_per_s), neat(x->most_rad_per_s)};
     for (int k = 0; k < 2; ++k) {
-        if (k == 1 && (x->source == HCI_TORQUE_HOLDING || !is_within_voltage(x, current_A, speed[k]))) break;
+        if (k == 1 && (x->source == HCI_TORQUE_HOLDING || !(speed[1] > speed[0]) ||
+                       !is_within_voltage(x, current_A, speed[1])))
+            break;
         point[count++] = (hci_operating_point){neat(id_A), neat(iq_A), speed[k]};
         point[count++] = (hci_operating_point){neat(id_A), neat(iq_A), -speed[k]};
     }

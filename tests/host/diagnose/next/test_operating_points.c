@@ -109,6 +109,27 @@ static void test_the_grid_with_a_torque_sensor(void)
     }
 }
 
+/* Slow and fast are one speed where nothing slower may be asked for and no rating says that a faster one can
+ * be: 0.1 rad/s; or where they differ in the fourth digit. */
+static void test_no_point_stands_twice_in_the_grid(void)
+{
+    static const double FASTEST_RAD_PER_S[] = {0.1, 0.1004};
+    for (int k = 0; k < 2; ++k) {
+        const hci_playable x = {.source = HCI_TORQUE_MEASURED,
+                                .most_A = 8.0,
+                                .least_rad_per_s = 0.1,
+                                .most_rad_per_s = FASTEST_RAD_PER_S[k],
+                                .most_V = INFINITY};
+        hci_operating_point point[HCI_OPERATING_POINTS];
+        const size_t count = hci_operating_points(&x, point);
+        TEST_ASSERT_EQUAL(2 * 13, count);
+        for (size_t i = 0; i < count; ++i)
+            for (size_t j = 0; j < i; ++j)
+                TEST_ASSERT_FALSE(point[i].id_A == point[j].id_A && point[i].iq_A == point[j].iq_A &&
+                                  point[i].speed_rad_per_s == point[j].speed_rad_per_s);
+    }
+}
+
 /* A speed times 0.1 V·s and a current times 2 Ω are no more than 20 V: at 120 rad/s up to 4 A, at the slow
  * speed whatever it is. */
 static void test_the_grid_within_the_voltage(void)
@@ -289,6 +310,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_the_grid_with_a_torque_sensor);
+    RUN_TEST(test_no_point_stands_twice_in_the_grid);
     RUN_TEST(test_the_grid_within_the_voltage);
     RUN_TEST(test_the_grid_without_a_torque_sensor);
     RUN_TEST(test_how_near_a_recording_is);
