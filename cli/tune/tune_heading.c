@@ -66,7 +66,8 @@ static void say_doubtful(const cli_tuning *t, double before_Nm, char *text, size
     if (x.current_A > 0.0) snprintf(current, sizeof current, "at %.3g A", x.current_A);
     if (x.run < t->runs.count)
         snprintf(text + strlen(text), size - strlen(text),
-                 ": %.120s shows %.2g N·m from peak to peak %s, and a plain sine in the model makes %.2g N·m "
+                 "; the recording %.120s shows %.2g N·m from peak to peak %s, and a plain sine in the model "
+                 "makes %.2g N·m "
                  "at %.3g A",
                  cli_tune_name_of(t, x.run), x.peak_to_peak_Nm, current, before_Nm,
                  t->solution.plain_amplitude_A);

@@ -138,7 +138,8 @@ uneven half.csv 240 5
 uneven load.csv 60 10
 uneven fast.csv 240 10
 run 1 tune zero.csv half.csv load.csv fast.csv --pole-pairs 4 --flux 0.125 --slots 24 --rated-current 11 -o uneven
-says 'is not to be relied on and may be more than a plain sine leaves: (fast|load)\.csv shows 0\.[56][0-9]* N·m from peak to peak at 10 A, and a plain sine in the model makes 0\.[456]' 'ripple in the model, N·m'
+says 'is not to be relied on and may be more than a plain sine leaves; the recording (fast|load)\.csv shows 0\.[56][0-9]* N·m from peak to peak at 10 A, and a plain sine in the model makes 0\.[456]' 'ripple in the model, N·m'
+check "the title is one sentence" grep -Eq "<h1>[^;:]* may be more than a plain sine leaves</h1>" uneven/report.html
 check "currents of a model that explains nothing are green" grep -q 'Reached in a model that is not to be relied on' uneven/currents/report.html
 
 # ---- an order that is off by less than the cut of the table makes is as wanted; a limit that binds is the reason where it is not
