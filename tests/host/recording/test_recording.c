@@ -471,6 +471,24 @@ static void test_torque_sources(void)
     TEST_ASSERT_NULL(run.torque_Nm);
 }
 
+/* Open terminals: ten samples of a turn, ia and ib noise of 1 mA whose vectors point anywhere. */
+static void test_a_torque_of_0_at_open_terminals_is_typed(void)
+{
+    char content[1024] = "time_s,theta_m_rad,ia_A,ib_A,va_V,vb_V,vc_V,torque_Nm\n";
+    uint64_t seed = 5;
+    for (int k = 0; k < 10; ++k) {
+        const double theta_rad = 0.6 * k;
+        snprintf(content + strlen(content), sizeof content - strlen(content),
+                 "%g,%g,%.6f,%.6f,%.4f,%.4f,%.4f,0\n", 0.01 * k, theta_rad, 1e-3 * ref_normal(&seed),
+                 1e-3 * ref_normal(&seed), 5.0 * sin(2.0 * theta_rad),
+                 5.0 * sin(2.0 * theta_rad - 2.0 * REF_PI / 3.0),
+                 5.0 * sin(2.0 * theta_rad + 2.0 * REF_PI / 3.0));
+    }
+    read_text(content, 2);
+    TEST_ASSERT_TRUE(run.torque_is_typed);
+    TEST_ASSERT_NULL(run.torque_Nm);
+}
+
 static void test_torque_of_inertia(void)
 {
     FILE *file = begin("time_s,theta_m_rad,speed_rad_per_s");
@@ -732,6 +750,7 @@ int main(void)
     RUN_TEST(test_a_speed_over_time_is_an_angle);
     RUN_TEST(test_a_torque_map_knows_the_mean_only);
     RUN_TEST(test_torque_sources);
+    RUN_TEST(test_a_torque_of_0_at_open_terminals_is_typed);
     RUN_TEST(test_torque_of_inertia);
     RUN_TEST(test_holding_takes_a_current);
     RUN_TEST(test_a_current_that_was_not_read_is_named);
