@@ -11,9 +11,9 @@
 #include "hci/host/csv/csv.h"
 #include "host/base/json.h"
 #include "host/base/memory.h"
-#include "host/base/own_files.h"
 #include "host/base/quote.h"
 #include "host/base/whole_file.h"
+#include "host/currents/own_files.h"
 
 enum { PATH_SIZE = 4096 + 32 };
 

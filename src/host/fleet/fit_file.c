@@ -7,7 +7,7 @@
 #include "hci/host/base/output.h"
 #include "hci/host/csv/csv.h"
 #include "hci/host/fleet/fit.h"
-#include "host/base/own_files.h"
+#include "host/currents/own_files.h"
 #include "host/fleet/row.h"
 #include "host/machine/folder.h"
 #include "host/report/summary.h"

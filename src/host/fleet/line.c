@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "host/base/memory.h"
-#include "host/base/own_files.h"
 #include "host/base/whole_file.h"
+#include "host/currents/own_files.h"
 #include "host/fleet/dates.h"
 #include "host/fleet/row.h"
 

@@ -11,9 +11,9 @@
 #include "host/base/folder.h"
 #include "host/base/folder_lock.h"
 #include "host/base/memory.h"
-#include "host/base/own_files.h"
 #include "host/base/sync.h"
 #include "host/base/whole_file.h"
+#include "host/currents/own_files.h"
 #include "host/fleet/row.h"
 
 #define MOTORS "motors"

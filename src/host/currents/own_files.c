@@ -1,6 +1,6 @@
 #define _POSIX_C_SOURCE 200809L
 
-#include "host/base/own_files.h"
+#include "host/currents/own_files.h"
 
 #include <dirent.h>
 #include <errno.h>

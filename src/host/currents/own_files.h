@@ -1,7 +1,7 @@
 /* The files of a folder of results: whether they are those that were written with its summary.json, by the
  * checksums in it. */
-#ifndef HCI_SRC_HOST_BASE_OWN_FILES_H
-#define HCI_SRC_HOST_BASE_OWN_FILES_H
+#ifndef HCI_SRC_HOST_CURRENTS_OWN_FILES_H
+#define HCI_SRC_HOST_CURRENTS_OWN_FILES_H
 
 #include "hci/host/base/note.h"
 
