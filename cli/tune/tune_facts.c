@@ -146,6 +146,8 @@ double cli_tune_unexplained_Nm(const cli_tuning *t)
     double most_Nm = 0.0;
     for (size_t k = 0; k < t->diagnosis.runs; ++k) {
         const hci_run_errors *r = &t->diagnosis.run[k];
+        if (k < t->runs.count && t->runs.run[k].only_mean)
+            continue; /* its torques are means: none is a ripple */
         if (r->ripple_after_Nm > NEAR_NOISE * r->noise_floor_Nm) most_Nm = fmax(most_Nm, r->ripple_after_Nm);
     }
     return most_Nm;

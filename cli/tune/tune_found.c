@@ -328,6 +328,54 @@ static void forget_turn(cli_tuning *t)
     if (t->diagnosis.runs > 0 && t->diagnosis.verdict <= HCI_DIAGNOSIS_EXPLAINED) t->turned_deg = 0.0;
 }
 
+/* A mean torque that grows otherwise than with i_q: of a saliency or of saturation. */
+static const hci_effect_term *mean_by_current(const hci_effect *e)
+{
+    for (size_t k = 0; e && !is_of_emf(e) && k < e->count; ++k) {
+        const hci_effect_parameter *p = &e->type->parameter[e->term[k].parameter];
+        if (e->type->in_machine && p->ordered && (p->traits & HCI_PARAMETER_WITH_CURRENT) &&
+            e->term[k].order == 0.0)
+            return &e->term[k];
+    }
+    return NULL;
+}
+
+/* Currents on one line that is not that of i_q: a drive that keeps its i_d at 0 beside a zero that is off, or
+ * an i_d in a motor that answers it. */
+static void say_two_readings(cli_tuning *t, const hci_effect *e, const hci_effect_term *x, double angle_deg)
+{
+    const hci_effect_parameter *p = &e->type->parameter[x->parameter];
+    hci_tuning_say(
+        &t->tuning, HCI_TUNING_UNKNOWN,
+        "Whether it is %s, as found (%.4g %s %.*s, the same at every angle), or a zero of the angle that is "
+        "%.3g degrees (electrical) off, from a drive that keeps its i_d at 0: all loaded recordings have "
+        "their current in one direction, %.3g degrees from i_q of this angle, and do not tell the two apart, "
+        "nor what part is of each. Along that direction the torque is as measured. Voltages of the open "
+        "machine, or loads with another i_d, would tell (docs/tutorials/zero.md).",
+        e->type->title, x->value, p->unit, (int)strcspn(p->meaning, ","), p->meaning, fabs(angle_deg),
+        fabs(angle_deg));
+}
+
+static void say_zero_or_saliency(cli_tuning *t)
+{
+    double angle_deg;
+    if (!cli_tune_currents_are_in_line(t)) return;
+    if (!cli_tune_line_is_kept(t, &angle_deg))
+        hci_tuning_say(
+            &t->tuning, HCI_TUNING_UNKNOWN,
+            "What i_q makes: all loaded recordings have their current %.3g degrees from it, and what "
+            "another direction does was not measured. The mean torque of the table is that of the "
+            "model alone.",
+            fabs(angle_deg));
+    for (size_t k = 0; k < t->diagnosis.findings && angle_deg != 0.0; ++k) {
+        const hci_effect *e = effect_of(t, &t->diagnosis.finding[k]);
+        const hci_effect_term *x = mean_by_current(e);
+        if (t->diagnosis.finding[k].verdict != HCI_FINDING_ADDED || !x) continue;
+        say_two_readings(t, e, x, angle_deg);
+        return;
+    }
+}
+
 /* ---- cogging torque of a holding test, with what diagnose has added to it ---- */
 
 enum { MOST_ORDERS = 512 };
@@ -605,6 +653,7 @@ void cli_tune_say_diagnosis(cli_tuning *t)
     for (size_t k = 0; k < d->findings; ++k)
         if (d->finding[k].verdict != HCI_FINDING_REJECTED) say_finding(t, &d->finding[k]);
     forget_turn(t);
+    say_zero_or_saliency(t);
     for (size_t k = 0; k < d->findings; ++k)
         say_turned(t, &d->finding[k]);
     if (d->advice[0]) hci_tuning_say(&t->tuning, HCI_TUNING_NEXT, "%s", d->advice);

@@ -89,8 +89,9 @@ bool cli_tune_currents_are_in_line(const cli_tuning *t)
 /* An angle of currents that a drive means to have at 0, and of sensors that differ. */
 #define LEAST_ANGLE_DEG 1.0
 
-/* Currents further from i_q heat so much more than the shortest that these are taken all the same. */
-#define MOST_ANGLE_DEG 20.0
+/* Currents further from i_q make less than half of the torque of the shortest, if the angle is right: a
+ * torque that small beside them is none to go by. */
+#define MOST_ANGLE_DEG 60.0
 
 bool cli_tune_line_is_kept(const cli_tuning *t, double *angle_deg)
 {

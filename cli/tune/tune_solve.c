@@ -76,6 +76,15 @@ static double sensor_zero_Nm(const cli_tuning *t)
     return zero_Nm;
 }
 
+/* The largest of the torques of a map, whose rows are means each; 0 of any other recording. */
+static double most_of_map(const hci_run *r, double zero_Nm)
+{
+    double most_Nm = 0.0;
+    for (size_t n = 0; r->only_mean && r->torque_source == HCI_TORQUE_MEASURED && n < r->count; ++n)
+        most_Nm = fmax(most_Nm, fabs(r->torque_Nm[n] - zero_Nm));
+    return most_Nm;
+}
+
 static recorded recorded_of(const cli_tuning *t)
 {
     const double Nm_per_A = t->reading.run.torque_constant_Nm_per_A;
@@ -86,6 +95,7 @@ static recorded recorded_of(const cli_tuning *t)
     for (size_t k = 0; k < t->runs.count; ++k) {
         const hci_run *r = &t->runs.run[k];
         const size_t count = cli_tune_has_no_current(t, r) ? 0 : 3 * r->count;
+        x.mean_Nm = fmax(x.mean_Nm, most_of_map(r, x.zero_Nm));
         for (size_t n = 0; n < count; ++n)
             x.current_Nm = fmax(x.current_Nm, fabs(r->i_A[n]) * Nm_per_A);
         if (count > 0 && r->torque_source == HCI_TORQUE_HOLDING && hci_run_is_loaded(r, r->pole_pairs))

@@ -277,6 +277,7 @@ struct hci_effect_type {
     bool in_series;          /* a series in the currents has it in it: not looked for beside one, nor
                               * held against one */
     bool is_angle_zero;      /* turns the zero of the angle */
+    bool turns_angle;        /* turns the angle of a recording: a map of mean torques has none */
     bool any_phase;          /* a torque of any order and phase without current: a turned angle is one, too */
     const size_t *resonance; /* two parameters, natural frequency in Hz and damping ratio, that a diagnosis
                               * looks for on a grid, since no small step from nothing finds them */

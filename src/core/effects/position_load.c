@@ -104,6 +104,7 @@ const hci_effect_type hci_effect_position_load = {
     HCI_EFFECT_PARAMETERS(PARAMETER),
     .correction = CORRECTION,
     .is_small = true,
+    .turns_angle = true,
     .in_series = true, /* in iron that saturates the flux turns with the load */
     .seen_as = &hci_effect_reluctance,
     .told_by = "another current i_d",

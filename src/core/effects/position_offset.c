@@ -59,6 +59,7 @@ const hci_effect_type hci_effect_position_offset = {
     HCI_EFFECT_PARAMETERS(PARAMETER),
     .correction = CORRECTION,
     .is_angle_zero = true,
+    .turns_angle = true,
     .propose = propose,
     .propose_alike = propose_alike,
     .sense = sense,

@@ -223,6 +223,45 @@ bool hci_expected_ripple_is_far(const hci_expected_ripple *e)
     return e->outside_A > CHECKED * largest_measured_A(e);
 }
 
+/* ---- the mean ---- */
+
+enum { SIDES = 72 }; /* of a polygon around what was recorded: its corners are 0.1 % too far out */
+
+/* How far the currents of a run go along a direction of the plane of i_d and i_q. */
+static double reach_A(const hci_measured_run *r, hci_dq way)
+{
+    return fmax(way.d * r->id_A.least, way.d * r->id_A.most) +
+           fmax(way.q * r->iq_A.least, way.q * r->iq_A.most);
+}
+
+/* The largest distance of the currents from what lies between those of the runs, and none. Two runs are a
+ * line there, and not all of the box around them. */
+static double beyond_runs_A(const hci_ripple_path *path, const hci_uncertainty *u)
+{
+    double most_A = 0.0;
+    for (int side = 0; side < SIDES; ++side) {
+        const hci_dq way = {cos(2.0 * HCI_PI * side / SIDES), sin(2.0 * HCI_PI * side / SIDES)};
+        double reached_A = 0.0;
+        for (size_t r = 0; r < u->runs; ++r)
+            reached_A = fmax(reached_A, reach_A(&u->run[r], way));
+        for (size_t k = 0; k < path->count; ++k) {
+            const double theta_rad = path->machine->pole_pairs * path->sample[k].theta_m_rad;
+            const hci_dq i = hci_park(hci_clarke(path->sample[k].i_abc), theta_rad);
+            most_A = fmax(most_A, way.d * i.d + way.q * i.q - reached_A);
+        }
+    }
+    return most_A;
+}
+
+#define LITTLE 0.2 /* of the largest current recorded: so far outside the mean torque is still bounded */
+
+/* What the recordings bound is the mean torque of currents that they had: of others the torque per ampere is
+ * that of the data sheet, and saturation makes it less. */
+static void bound_mean(const hci_ripple_path *path, const hci_uncertainty *u, hci_expected_ripple *e)
+{
+    if (beyond_runs_A(path, u) > LITTLE * largest_measured_A(e)) e->mean_error_Nm = NAN;
+}
+
 /* ---- all of it ---- */
 
 static hci_expected_ripple nothing(hci_ripple_state state)
@@ -295,6 +334,7 @@ static hci_status find(const hci_ripple_path *path, const hci_uncertainty *u, hc
     if (!status) {
         fill_peaks(&m, expected);
         fill_mean(&m, expected);
+        bound_mean(path, u, expected);
         status = fill_worst(&m, expected, note);
     }
     hci_memory_free(m.torque_Nm);

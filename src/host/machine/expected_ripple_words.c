@@ -62,18 +62,38 @@ static void say_ripple(const hci_words *w, const hci_expected_ripple *e)
                       number(e->worst_order_Nm, true, Nm));
 }
 
+/* No recording has currents like these. */
+static void say_unbounded_mean(const hci_words *w, const hci_expected_ripple *e)
+{
+    const double most_A = fmax(fmax(fabs(e->measured_id_A.least), fabs(e->measured_id_A.most)),
+                               fmax(fabs(e->measured_iq_A.least), fabs(e->measured_iq_A.most)));
+    if (most_A > 0.0)
+        hci_words_say(
+            w,
+            " Mean torque %.4g N·m in the model: how far it is off is not known, since no torque of "
+            "such currents was recorded.",
+            e->mean_Nm);
+    else
+        hci_words_say(w,
+                      " Mean torque %.4g N·m by the torque per ampere of the data sheet, or of voltages: no "
+                      "torque under load was recorded, and how far it is off is not known.",
+                      e->mean_Nm);
+}
+
 /* A sensor that reads all torques too large makes the same of all machines that its recordings allow. */
 static void say_mean(const hci_words *w, const hci_expected_ripple *e)
 {
     char Nm[NUMBER_SIZE];
-    const bool any =
-        fabs(e->mean_Nm) > ROUNDED * e->mean_error_Nm && fabs(e->mean_Nm) > ROUNDED * e->peak_to_peak_Nm;
+    const bool any = !(fabs(e->mean_Nm) <= ROUNDED * e->mean_error_Nm) &&
+                     fabs(e->mean_Nm) > ROUNDED * e->peak_to_peak_Nm; /* also where its error is not known */
     if (isfinite(e->mean_Nm) && e->origin.constant_is_declared)
         hci_words_say(w, " Mean torque %.4g N·m by the declared torque per ampere, which no recording tells.",
                       e->mean_Nm);
     else if (isfinite(e->mean_error_Nm))
         hci_words_say(w, " Mean torque %.4g N·m, at most %s N·m off (95 %%) as the torque was measured.",
                       any ? e->mean_Nm : 0.0, number(e->mean_error_Nm, true, Nm));
+    else if (isfinite(e->mean_Nm) && any)
+        say_unbounded_mean(w, e);
 }
 
 /* A current beside the largest of them: rounding is 0. */

@@ -57,14 +57,27 @@ static bool step(const hci_smooth_torque *torque, const double u[2], double want
     return false;
 }
 
+static void approach(const hci_smooth_torque *torque, const double u[2], double wanted_Nm, place *p)
+{
+    for (int k = 0; k < STEPS && !is_found(p, wanted_Nm) && step(torque, u, wanted_Nm, p); ++k)
+        continue;
+}
+
+/* A torque that saturates is made by two currents, and beyond its largest it falls with the current: there
+ * the search begins again at none, and finds the shorter one. */
 hci_status hci_kept_angle_current(const hci_smooth_torque *torque, double theta_rad, double angle_rad,
                                   double wanted_Nm, double x[2])
 {
     double u[2];
     direction_at(theta_rad, angle_rad, u);
+    const place none = place_at(torque, u, 0.0, wanted_Nm);
     place p = place_at(torque, u, copysign(hypot(x[0], x[1]), x[0] * u[0] + x[1] * u[1]), wanted_Nm);
-    for (int k = 0; k < STEPS && !is_found(&p, wanted_Nm) && step(torque, u, wanted_Nm, &p); ++k)
-        continue;
+    approach(torque, u, wanted_Nm, &p);
+    if (p.slope * none.slope < 0.0) {
+        place near = none;
+        approach(torque, u, wanted_Nm, &near);
+        if (is_found(&near, wanted_Nm)) p = near;
+    }
     x[0] = p.length_A * u[0];
     x[1] = p.length_A * u[1];
     return is_found(&p, wanted_Nm) ? HCI_OK : HCI_NOT_REACHED;

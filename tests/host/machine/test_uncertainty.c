@@ -360,6 +360,43 @@ static void test_currents_outside(void)
 }
 
 /* A power of the current that is uncertain: the third grows 2³ times from one current to twice that. */
+/* A mean torque is bounded along what was recorded: two runs, one of them without a current, are a line of
+ * the plane, and not all of the box around it; without a load nothing bounds it. */
+static void test_mean_of_currents_that_were_not_recorded(void)
+{
+    static const char HEAD[] =
+        "file,id_least_A,id_most_A,iq_least_A,iq_most_A,speed_least_rad_per_s,speed_most_rad_per_s,misfit\n";
+    static const char *const REST[2] = {
+        "a.csv,0,0,0,0,1,1,1\nb.csv,-30,-30,52,52,1,1,1\nc.csv,0,0,0,0,1,1,1\n",
+        "a.csv,0,0,0,0,1,1,1\nb.csv,0,0,0,0,1,1,1\nc.csv,0,0,0,0,1,1,1\n"};
+    static const struct {
+        int runs;
+        double d_A, q_A;
+        bool is_bounded;
+        const char *words;
+    } CASE[] = {{0, -15.0, 26.0, true, "at most"},
+                {0, -30.0, 20.0, false, "3 N·m in the model: how far it is off is not known"},
+                {0, 0.0, 40.0, false, "no torque of such currents was recorded"},
+                {1, 0.0, 4.0, false, "no torque under load was recorded"}};
+    char terms[16384], words[1024];
+    int m;
+    for (size_t k = 0; k < sizeof CASE / sizeof *CASE; ++k) {
+        char runs[512];
+        hci_ripple_path path = path_of(CASE[k].d_A, CASE[k].q_A);
+        snprintf(runs, sizeof runs, "%s%s", HEAD, REST[CASE[k].runs]);
+        strcpy(terms, "effect,parameter,value,unit,departures\ncogging,sine_12,0,Nm,");
+        for (m = 1; m <= MACHINES; ++m)
+            strcat(terms, m % 3 ? " 1e-3" : " -1e-3");
+        strcat(terms, "\n");
+        hci_uncertainty_release(&uncertainty);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, read_texts(terms, runs), note.text);
+        const hci_expected_ripple e = expect(&path);
+        TEST_ASSERT_EQUAL_INT(CASE[k].is_bounded, isfinite(e.mean_error_Nm));
+        hci_expected_ripple_words(&e, words, sizeof words);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, CASE[k].words), words);
+    }
+}
+
 static void test_grows_with_the_current(void)
 {
     TEST_ASSERT_EQUAL_INT(HCI_OK, read_texts("effect,parameter,value,unit,departures\n"
@@ -584,6 +621,7 @@ int main(void)
     RUN_TEST(test_ripple_of_the_model);
     RUN_TEST(test_an_order_above_those_of_a_solution);
     RUN_TEST(test_currents_outside);
+    RUN_TEST(test_mean_of_currents_that_were_not_recorded);
     RUN_TEST(test_grows_with_the_current);
     RUN_TEST(test_not_known);
     RUN_TEST(test_too_far_for_two_recordings);

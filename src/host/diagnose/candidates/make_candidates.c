@@ -277,7 +277,7 @@ static bool is_looked_for(const hci_candidates_source *s, size_t r, double curre
 {
     const hci_effect_type *type = hci_effect_type_at(r);
     return type->propose && !(s->denied && s->denied[r]) && !(type->in_series && s->richness > 0) &&
-           !(type->is_angle_zero && hci_candidates_lack_angle(s->runs, s->use, s->samples->run_count)) &&
+           !(type->turns_angle && hci_candidates_lack_angle(s->runs, s->use, s->samples->run_count)) &&
            (!s->magnetic_only || is_magnetic(s, type, current_A));
 }
 
