@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-enum { STEPS = 60, HALVINGS = 20 };
+enum { STEPS = 60, HALVINGS = 20, PARTS = 32 };
 
 #define ENOUGH 1e-13 /* of the torque that the back-EMF of the direction would make with the current */
 
@@ -63,21 +63,30 @@ static void approach(const hci_smooth_torque *torque, const double u[2], double 
         continue;
 }
 
-/* A torque that saturates is made by two currents, and beyond its largest it falls with the current: there
- * the search begins again at none, and finds the shorter one. */
+/* A torque that saturates is made by two currents: beyond its largest it falls with the current. Then the
+ * shorter one, which is between none and the one that was found. */
+static place shortest(const hci_smooth_torque *torque, const double u[2], double wanted_Nm, place found)
+{
+    place low = place_at(torque, u, 0.0, wanted_Nm);
+    if (!(low.slope * found.slope < 0.0)) return found;
+    for (int k = 1; k < PARTS; ++k) {
+        const place high = place_at(torque, u, found.length_A * k / PARTS, wanted_Nm);
+        if (!(low.error_Nm * high.error_Nm < 0.0)) continue;
+        place p = place_at(torque, u, 0.5 * (low.length_A + high.length_A), wanted_Nm);
+        approach(torque, u, wanted_Nm, &p);
+        return is_found(&p, wanted_Nm) && fabs(p.length_A) < fabs(found.length_A) ? p : found;
+    }
+    return found;
+}
+
 hci_status hci_kept_angle_current(const hci_smooth_torque *torque, double theta_rad, double angle_rad,
                                   double wanted_Nm, double x[2])
 {
     double u[2];
     direction_at(theta_rad, angle_rad, u);
-    const place none = place_at(torque, u, 0.0, wanted_Nm);
     place p = place_at(torque, u, copysign(hypot(x[0], x[1]), x[0] * u[0] + x[1] * u[1]), wanted_Nm);
     approach(torque, u, wanted_Nm, &p);
-    if (p.slope * none.slope < 0.0) {
-        place near = none;
-        approach(torque, u, wanted_Nm, &near);
-        if (is_found(&near, wanted_Nm)) p = near;
-    }
+    if (is_found(&p, wanted_Nm)) p = shortest(torque, u, wanted_Nm, p);
     x[0] = p.length_A * u[0];
     x[1] = p.length_A * u[1];
     return is_found(&p, wanted_Nm) ? HCI_OK : HCI_NOT_REACHED;
