@@ -7,6 +7,7 @@
 #include "hci/host/machine/effects.h"
 #include "hci/host/solve/solve.h"
 #include "host/base/memory.h"
+#include "host/solve/kept_angle.h"
 #include "support/effect_list.h"
 #include "support/reference.h"
 #include "unity.h"
@@ -530,6 +531,29 @@ static void test_currents_keep_their_angle(void)
     }
 }
 
+/* T = a l (1 − l²/3) of a length l along the direction is largest at l = 1. */
+static double falling(const void *context, const double x[2], double gradient[2])
+{
+    const double a = *(const double *)context, l = -x[1]; /* along i_q at the angle 0 */
+    gradient[0] = 0.0;
+    gradient[1] = -a * (1.0 - l * l);
+    return a * l * (1.0 - l * l / 3.0);
+}
+
+/* From a start beyond the largest torque, too; the other length that makes 1/2 is 1.3 and more. */
+static void test_the_shorter_current_of_two(void)
+{
+    const double a = 1.0;
+    const hci_smooth_torque torque = {.context = &a, .at = falling};
+    static const double START[] = {0.0, 0.3, 1.2, 1.5};
+    for (size_t k = 0; k < sizeof START / sizeof *START; ++k) {
+        double x[2] = {0.0, -START[k]};
+        TEST_ASSERT_EQUAL_INT(HCI_OK, hci_kept_angle_current(&torque, 0.0, 0.0, 0.5, x));
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.5, -x[1] * (1.0 - x[1] * x[1] / 3.0));
+        TEST_ASSERT_TRUE(-x[1] > 0.0 && -x[1] < 1.0);
+    }
+}
+
 /* How the torque goes off the direction does not matter along it. */
 static void test_what_is_off_the_direction_is_no_matter(void)
 {
@@ -941,6 +965,7 @@ int main(void)
     RUN_TEST(test_far_into_saturation);
     RUN_TEST(test_cancel);
     RUN_TEST(test_currents_keep_their_angle);
+    RUN_TEST(test_the_shorter_current_of_two);
     RUN_TEST(test_what_is_off_the_direction_is_no_matter);
     RUN_TEST(test_reluctance_is_an_inductance_table);
     RUN_TEST(test_linear_effects_are_the_declared_machine);
