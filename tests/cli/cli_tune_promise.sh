@@ -210,7 +210,6 @@ awk 'BEGIN { srand(3); print "time_s,theta_m_rad,speed_rad_per_s,va_V,vb_V,vc_V,
 run 1 tune open.csv --pole-pairs 7 --kv 120 -o open
 check "not said: the torque is typed" grep -q 'another machine turns the shaft, and the torque is typed and not measured' open/summary.json
 check "the zeros of sensors are cogging torque" [ "$(grep -c 'cogging torque and what else' "$work/stdout")" -eq 0 ]
-finish
 
 # ---- a zero that is off and a drive that keeps its own i_d at 0: the table keeps to the direction of the currents, and neither the zero nor a
 # saliency is a fact
@@ -228,7 +227,7 @@ turned turned2.csv 30 3
 turned turned3.csv -30 6
 turned turned4.csv 30 9
 run 0 tune turned?.csv --pole-pairs 4 --flux 0.125 --slots 24 --rated-current 10 -o turned
-says 'with the current at 23 degrees in the rotor frame' 'or a zero of the angle that is 23 degrees .electrical. off'
+says 'with the current at 23 degrees in the rotor frame' 'or a zero of the angle that is 23 degrees'
 check "currents of another direction" awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) c[$k] = k; next } { x = $c["id_A"] + 0.4245 * $c["iq_A"] } x * x > 1e-3 { exit 1 }' turned/currents/waveform.csv
 # a map of torques: its largest torque, and no angle
 awk 'BEGIN { print "Id (A),Iq (A),n (rpm),M (Nm)"; for (d = 0; d >= -60; d -= 20) for (q = -40; q <= 60; q += 20) { a = -0.006 * q; x = d * cos(a) - q * sin(a); y = q * cos(a) + d * sin(a)
@@ -236,3 +235,4 @@ awk 'BEGIN { print "Id (A),Iq (A),n (rpm),M (Nm)"; for (d = 0; d >= -60; d -= 20
 run 1 tune rows.csv --pole-pairs 4 --flux 0.055 --slots 48 --rated-current 60 -o rows
 says 'a torque without ripple of 17 N·m: nine tenths of what a sine of the rated'
 check "an angle of a map" [ "$(grep -c 'turns with the load\|rad for each ampere\|rms of it is in the recordings' "$work/stdout")" -eq 0 ]
+finish
