@@ -240,7 +240,7 @@ static double beyond_runs_A(const hci_ripple_path *path, const hci_uncertainty *
 {
     double most_A = 0.0;
     for (int side = 0; side < SIDES; ++side) {
-        const hci_dq way = {cos(2.0 * HCI_PI * side / SIDES), sin(2.0 * HCI_PI * side / SIDES)};
+        const hci_dq way = {cos(2.0 * HCI_PI * side / SIDES), sin(2.0 * HCI_PI * side / SIDES), 0.0};
         double reached_A = 0.0;
         for (size_t r = 0; r < u->runs; ++r)
             reached_A = fmax(reached_A, reach_A(&u->run[r], way));
