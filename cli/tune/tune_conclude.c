@@ -26,6 +26,7 @@ static const char *verdict_of(const cli_tuning *t)
            : t->size == CLI_TUNE_EXCESS                            ? "the size is not believable"
            : t->inertia_share > 0.0                                ? "the inertia is not believable"
            : t->has_standstill                                     ? "not enough in the logs"
+           : t->out_of_reach[0]                                    ? "the model does not reach the torque"
            : !t->is_emitted                                        ? "not enough in the logs"
            : cli_tune_is_of_no_use(t) || cli_tune_is_never_seen(t) ? "a table of no use"
            : cli_tune_is_missed(t)                                 ? "tuned, but not as wanted"
@@ -47,18 +48,18 @@ static bool is_sound(const cli_tuning *t)
     double offset_deg;
     char words[512];
     return !cli_tune_say_sheet(t, words, sizeof words) && !t->has_doubt && !cli_tune_off_iq(t, &offset_deg) &&
-           !(cli_tune_strange_rpm(t) > 0.0) && !cli_tune_denied_inertia(t) && !cli_tune_is_short(t) &&
-           !(t->once_a_turn_Nm > 0.0) && cli_tune_clipped(t) == 0 && cli_tune_torque_clipped(t) == 0 &&
-           t->size == CLI_TUNE_USUAL && !(t->drives_Nm > 0.0) && !(fabs(t->turned_deg) > 0.0) &&
-           !(fabs(t->open_turn_deg) > 0.0);
+           !cli_tune_is_without_angle(t) && !(cli_tune_strange_rpm(t) > 0.0) && !cli_tune_denied_inertia(t) &&
+           !cli_tune_is_short(t) && !(t->once_a_turn_Nm > 0.0) && cli_tune_clipped(t) == 0 &&
+           cli_tune_torque_clipped(t) == 0 && t->size == CLI_TUNE_USUAL && !(t->drives_Nm > 0.0) &&
+           !(fabs(t->turned_deg) > 0.0) && !(fabs(t->open_turn_deg) > 0.0);
 }
 
 /* Whether the table is what was wanted, of a model that can be believed. */
 static bool is_good(const cli_tuning *t)
 {
-    return t->is_emitted && !t->diagnosed && !cli_tune_is_missed(t) && !cli_tune_is_of_no_use(t) &&
-           !cli_tune_is_far_beyond(t) && !cli_tune_is_never_seen(t) && !cli_tune_misses_torque(t) &&
-           !cli_tune_is_unpromised(t) && !cli_tune_is_boundless(t) &&
+    return t->is_emitted && !t->diagnosed && t->solution.within_limits && !cli_tune_is_missed(t) &&
+           !cli_tune_is_of_no_use(t) && !cli_tune_is_far_beyond(t) && !cli_tune_is_never_seen(t) &&
+           !cli_tune_misses_torque(t) && !cli_tune_is_unpromised(t) && !cli_tune_is_boundless(t) &&
            !(t->is_solved && hci_expected_ripple_is_doubtful(&t->solution.expected));
 }
 

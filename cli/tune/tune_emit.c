@@ -97,11 +97,14 @@ static void say_table(cli_tuning *t, const char *name, const char *folder, const
         &t->tuning, HCI_TUNING_LOAD,
         "%s/%s.h and %s.c need hci/table.h alone: `hci_currents_dq i = hci_table_f32_dq(&%s, "
         "angle);`, where 2^32 of "
-        "the angle is %lu electrical turn%s from the zero of the logs%s%s%s. They are the whole "
+        "the angle is %lu electrical turn%s from %s%s%s%s. They are the whole "
         "reference for %.4g N·m (docs/controller.md); their cut makes %.2g N·m of ripple, which is in the "
         "figures above, and not in those of %s/report.html; another --max-error of emit makes it less, or "
         "the table smaller.",
         folder, name, name, name, h->turns, h->turns == 1 ? "" : "s",
+        cli_tune_is_without_angle(t) ? "where the back-EMF of phase a rises through zero, which no log shows "
+                                       "an angle of"
+                                     : "the zero of the logs",
         cli_tune_offset(t) ? " with --angle-offset " : "", cli_tune_offset(t) ? cli_tune_offset(t) : "",
         h->turns == 1 ? "" : ", not one: the angle goes on from turn to turn", cli_tune_made_Nm(t), h->own_Nm,
         currents);

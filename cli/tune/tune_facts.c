@@ -58,6 +58,13 @@ bool cli_tune_is_electrical_alone(const cli_tuning *t)
     return any && t->declared.model.pole_pairs > 1;
 }
 
+bool cli_tune_is_without_angle(const cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count; ++k)
+        if (t->runs.run[k].theta_m_rad) return false;
+    return t->is_own && t->has_emf && t->runs.count > 0;
+}
+
 bool cli_tune_off_iq(const cli_tuning *t, double *offset_deg)
 {
     for (size_t k = 0; k < t->runs.count; ++k) {

@@ -22,6 +22,10 @@ bool cli_tune_lacks_sign(const cli_tuning *tune);
 /* Whether the angle of all recordings that show a torque is one of the electrical turn alone. */
 bool cli_tune_is_electrical_alone(const cli_tuning *tune);
 
+/* Whether the angle of the table is that of the measured back-EMF, since no recording has one: the drive has
+ * to find its zero before the table can be played. */
+bool cli_tune_is_without_angle(const cli_tuning *tune);
+
 /* Whether phase currents without a torque sensor lie elsewhere than along i_q. deg: out, the --angle-offset
  * with which they do, or half an electrical turn more. */
 bool cli_tune_off_iq(const cli_tuning *tune, double *offset_deg);

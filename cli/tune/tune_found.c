@@ -20,13 +20,19 @@ static int place_of(const hci_effect *e, const char *name, double order)
     return -1;
 }
 
-/* The amplitude of the order of a value, where it is a sine with a cosine; else 0. */
+/* The amplitude of the order of a value, at its sine, or at a cosine that has none beside it; else 0. */
 static double amplitude_of(const hci_effect *e, size_t k, double *std_error)
 {
-    const int sine = place_of(e, "sine", e->term[k].order), cosine = place_of(e, "cosine", e->term[k].order);
-    if (sine != (int)k || cosine < 0) return 0.0;
-    *std_error = fmax(e->term[sine].std_error, e->term[cosine].std_error);
-    return hypot(e->term[sine].value, e->term[cosine].value);
+    const int place[] = {place_of(e, "sine", e->term[k].order), place_of(e, "cosine", e->term[k].order)};
+    double amplitude = 0.0;
+    if ((place[0] >= 0 ? place[0] : place[1]) != (int)k) return 0.0;
+    *std_error = 0.0;
+    for (int j = 0; j < 2; ++j) {
+        if (place[j] < 0) continue;
+        amplitude = hypot(amplitude, e->term[place[j]].value);
+        *std_error = fmax(*std_error, e->term[place[j]].std_error);
+    }
+    return amplitude;
 }
 
 /* Whether an effect is a sum of sines with cosines. */

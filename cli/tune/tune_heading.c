@@ -276,7 +276,7 @@ static void append_of_zero(cli_tuning *t)
 static void append_of_miss(cli_tuning *t)
 {
     const hci_solution *s = &t->solution;
-    if (!cli_tune_is_missed(t)) return;
+    if (!cli_tune_is_missed(t) || t->size == CLI_TUNE_EXCESS) return;
     for (size_t k = 0; k < s->limit_count; ++k)
         if (s->limit[k].binds) {
             append(t, "; the torque is not as wanted, since the currents keep a limit, %s %.4g A",
@@ -285,6 +285,25 @@ static void append_of_miss(cli_tuning *t)
         }
     append(t, "; the torque is not as wanted: order %.4g is off by %.2g N·m, and more than %.2g N·m counts",
            s->worst_order, s->worst_error_Nm, fmax(s->tolerance_Nm, 0.5 * t->cut_Nm));
+}
+
+/* A limit that currents found angle by angle do not keep. */
+static void append_of_excess(cli_tuning *t)
+{
+    const hci_solution *s = &t->solution;
+    for (size_t k = 0; k < s->limit_count && !s->within_limits; ++k) {
+        const hci_limit *l = &s->limit[k];
+        if (!(l->value > l->limit)) continue;
+        append(t,
+               "; the currents do not keep a limit, %s %.4g %s, but take %.4g: the table is not for "
+               "continuous use, and --torque with less is",
+               hci_limit_kind_name(l->kind), l->limit,
+               l->kind == HCI_LIMIT_VOLTAGE  ? "V"
+               : l->kind == HCI_LIMIT_COPPER ? "A²"
+                                             : "A",
+               l->value);
+        return;
+    }
 }
 
 /* What the table needs of the drive, and does not do. */
@@ -300,6 +319,7 @@ static void append_of_table(cli_tuning *t)
     append_of_zero(t);
     append_of_doubt(t);
     append_of_miss(t);
+    if (t->is_solved && t->size != CLI_TUNE_EXCESS) append_of_excess(t);
     if (cli_tune_misses_torque(t))
         append(t, "; the table makes %.4g N·m on average, and not the %.4g N·m that were wanted",
                cli_tune_made_Nm(t), t->mean_Nm);
@@ -416,6 +436,9 @@ static void append_of_machine(cli_tuning *t)
 {
     char order[CLI_TUNE_ORDER], words[512];
     append_of_inertia(t);
+    if (t->is_solved && cli_tune_is_without_angle(t))
+        append(t, "; no log has an angle: the table begins where the back-EMF of phase a rises through zero, "
+                  "and cannot be played before the electrical zero of the drive is set there");
     if (t->is_solved) append_of_declared_inertia(t);
     if (cli_tune_is_uncounted(t))
         append(t, "; that there are %d pole pairs is taken on trust, since nothing in these logs counts them",
@@ -572,6 +595,10 @@ static void say_why_not_solved(cli_tuning *t)
 {
     hci_tuning *r = &t->tuning;
     const char *column = cli_tune_lacks_torque(t) ? cli_tune_torque_like(t) : NULL;
+    if (t->out_of_reach[0]) {
+        snprintf(r->heading, sizeof r->heading, "Nothing was solved: %s", t->out_of_reach);
+        return;
+    }
     if (t->jump_rad > 0.0) {
         say_jumps(t);
         return;

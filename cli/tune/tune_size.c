@@ -49,7 +49,21 @@ static double usual_A(const cli_tuning *t)
     const double rated_A = t->declared.rated_current_A > 0.0
                                ? t->declared.rated_current_A
                                : rated_Nm / t->reading.run.torque_constant_Nm_per_A;
-    return fmax(fmax(rated_A > 0.0 ? rated_A : LEAST_A, load_A(t)), wanted_A);
+    if (rated_A > 0.0) return fmax(rated_A, load_A(t)); /* whatever torque is wanted */
+    return fmax(fmax(LEAST_A, load_A(t)), wanted_A);
+}
+
+/* Whether the fundamental of the currents has the sign against the torque that it was solved for: a root of
+ * the model far away from what was recorded, and no current of a motor. */
+static bool is_against(const hci_solution *s)
+{
+    double along = 0.0;
+    for (size_t k = 0; k < s->current.count; ++k) {
+        const hci_wave *w = &s->current.wave[k];
+        if (w->sequence == 1 && fabs(w->order - 1.0) < HCI_ORDER_TOLERANCE)
+            along += w->sine * s->plain.sine + w->cosine * s->plain.cosine;
+    }
+    return along < 0.0;
 }
 
 static double open_swing_Nm(const cli_tuning *t)
@@ -66,7 +80,7 @@ void cli_tune_judge_size(cli_tuning *t)
     if (!t->is_solved) return;
     t->open_swing_Nm = open_swing_Nm(t);
     t->usual_A = usual_A(t);
-    if ((rated_Nm > 0.0 && t->open_swing_Nm > EXCESS_RATED * rated_Nm) ||
+    if ((rated_Nm > 0.0 && t->open_swing_Nm > EXCESS_RATED * rated_Nm) || is_against(&t->solution) ||
         t->solution.peak_phase_current_A > EXCESS_CURRENT * t->usual_A)
         t->size = CLI_TUNE_EXCESS;
     else if (rated_Nm > 0.0 && t->open_swing_Nm > LARGE_COGGING * rated_Nm)
@@ -85,6 +99,19 @@ void cli_tune_say_excess(const cli_tuning *t, char *text, size_t size)
                  "%.3g N·m, which no motor has: are %s in the unit that they were read in (N·m, not N·cm, "
                  "lbf·in or N·mm; A, not mA; rpm/V)? No table was written",
                  t->open_swing_Nm, t->open_swing_Nm / rated_Nm, rated_Nm, unit);
+    else if (is_against(&t->solution))
+        snprintf(text, size,
+                 "The currents of the model for %.4g N·m have the sign that makes the other torque, which is "
+                 "none of a motor: the model does not hold so far from what was recorded. No table was "
+                 "written: --torque with less, or logs at several loads up to that torque",
+                 t->mean_Nm);
+    else if (t->arguments->given[TUNE_TORQUE] && t->solution.plain_amplitude_A > EXCESS_CURRENT * t->usual_A)
+        snprintf(text, size,
+                 "A torque of %.4g N·m would take a sine of %.3g A, %.3g times the %.3g A that %s: is "
+                 "--torque in N·m, and is %s right? No table was written",
+                 t->mean_Nm, t->solution.plain_amplitude_A, t->solution.plain_amplitude_A / t->usual_A,
+                 t->usual_A, rated_Nm > 0.0 ? "are rated or recorded" : "were taken for its load",
+                 cli_tune_constant_option(t));
     else
         snprintf(
             text, size,

@@ -312,6 +312,15 @@ static void leave_bound_out(hci_expected_ripple *e)
     e->recordings = 0;
 }
 
+/* What was found stays, and no currents with it. */
+static hci_status note_out_of_reach(cli_tuning *t, hci_note *note)
+{
+    snprintf(t->out_of_reach, sizeof t->out_of_reach, "%s", note->text);
+    *note = (hci_note){{0}};
+    t->tuning.solved = HCI_OK;
+    return HCI_OK;
+}
+
 hci_status cli_tune_solve(cli_tuning *t, hci_note *note)
 {
     char machine[CLI_TUNE_PATH], target[CLI_TUNE_PATH], folder[CLI_TUNE_PATH], rms[32], angle[32];
@@ -336,6 +345,7 @@ hci_status cli_tune_solve(cli_tuning *t, hci_note *note)
     t->tuning.solved = hci_solve(&t->corrected, &options, &t->solution, note);
     cli_progress_end();
     if (cli_tune_is_coarse(t)) leave_bound_out(&t->solution.expected);
+    if (t->tuning.solved == HCI_ERROR_NUMERIC && t->keeps_angle) return note_out_of_reach(t, note);
     if (t->tuning.solved > HCI_NOT_REACHED) return t->tuning.solved;
     t->is_solved = true;
     t->tuning.solution = &t->solution;

@@ -98,6 +98,7 @@ typedef struct {
     hci_target target;
     hci_solution solution;
     bool is_solved, is_emitted;
+    char out_of_reach[HCI_NOTE_SIZE];  /* why the model has no currents for the torque, in words; "" */
     double cut_Nm;                     /* is_emitted: ripple that the cut to a table makes, peak to peak */
     double open_Nm[HCI_TUNING_POINTS]; /* torque without current */
     cli_tune_size size;                /* of an excess no table is written */

@@ -315,4 +315,46 @@ check "other words: $(head -1 "$work/stdout")" [ "$(head -1 "$work/stdout" | tr 
 # Anti-cogging alone
 run 0 tune right.csv --pole-pairs 4 --kv 18.38 --slots 12 --torque 0 -o alone
 check "no table of anti-cogging alone" [ -e alone/table/tuned.c ]
+
+# ---- a model whose torque falls again with the current
+
+mkdir drooping
+printf 'name,value,unit\npole_pairs,5,1\nrated_current,8,A\n' >drooping/machine.csv
+printf 'order,amplitude_Nm_per_A,phase_rad\n1,0.76,0\n' >drooping/back_emf.csv
+printf 'order,amplitude_Nm,phase_rad\n18,0.05,0.3\n' >drooping/cogging.csv
+printf 'effect,parameter,value,unit,std_error\nsaturation,d1q2_cosine_0,-6.3,Nm,\nsaturation,reference_current,8,A,\n' >drooping/effects.csv
+for current in 0.4 0.6 0.8; do
+    awk -v i="$current" 'BEGIN { srand(3); print "time_s,theta_m_rad,speed_rad_per_s,id_A,iq_A,torque_Nm"
+        for (k = 0; k < 2400; ++k) { x = 3.14159265 * k / 300; e = 90 * x
+            printf "%.5f,%.6f,3.14159265,0,%.4f,%.5f\n", k / 300, x, i, 1.14 * i - 31.5 * (i / 8) ^ 3 + 0.05 * sin(e + 0.3) + 0.01 * (rand() - 0.5) } }' >"droop$current.csv"
+done
+printf 'file,role\ndroop0.4.csv,fit\ndroop0.6.csv,fit\ndroop0.8.csv,fit\n' >droop.csv
+run 1 tune drooping --runs droop.csv --torque 500 -o droop
+says '^the model does not reach the torque: Nothing was solved: no current of this direction makes 500 N·m in the model' 'its torque falls again'
+check "a table of a torque beyond the model" [ ! -e droop/table ] && [ ! -e droop/currents ]
+mkdir magnets
+cp drooping/machine.csv drooping/cogging.csv magnets
+printf 'order,amplitude_Nm_per_A,phase_rad\n1,0.66,0\n' >magnets/back_emf.csv
+for current in 0.4 0.6 0.8; do
+    awk -v i="$current" 'BEGIN { srand(3); print "time_s,theta_m_rad,speed_rad_per_s,id_A,iq_A,torque_Nm"
+        for (k = 0; k < 2400; ++k) { x = 3.14159265 * k / 300; e = 5 * x
+            printf "%.5f,%.6f,3.14159265,0,%.4f,%.5f\n", k / 300, x, i, (1.14 + 0.04 * cos(6 * e)) * i + 0.05 * sin(18 * e + 0.3) + 0.01 * (rand() - 0.5) } }' >"droop$current.csv"
+done
+run 0 tune magnets --runs droop.csv --torque 0.5 -o magnets_out
+says 'order 1: 0\.0[0-9]* ± .* N·m/A' 'order 5 or 7: 0\.0[0-9]* ±'
+run 1 tune magnets --runs droop.csv --torque 500 -o beyond
+says '^the size is not believable: A torque of 500 N·m would take a sine of [0-9]* A, .* times the 8 A that are rated or recorded'
+check "a table of a torque that no current of this motor makes" [ ! -e beyond/table ]
+run 1 tune magnets --runs droop.csv --torque 12 -o above
+says '; the currents do not keep a limit, rms 5\.657 A, but take [0-9.]*: the table is not for continuous use'
+
+# ---- voltages of a scope alone: what the drive has to know of its angle
+
+awk 'BEGIN { print "time_s,v_ab_V,v_bc_V"; turn = 6.283185307179586
+    for (k = 0; k < 1500; ++k) { e = turn * 30 * k / 5000; for (s = 0; s < 3; ++s) { x = e - s * turn / 3; v[s] = 10 * sin(x) + 0.4 * sin(5 * e + s * turn / 3) }
+        printf "%.5f,%.5f,%.5f\n", k / 5000, v[0] - v[1], v[1] - v[2] } }' >scope.csv
+run 1 tune scope.csv --pole-pairs 3 --volt-per-krpm 20 --rated-current 3 -o scope
+says '; no log has an angle: the table begins where the back-EMF of phase a rises through zero, and cannot be played before'
+check "a zero of logs without an angle" [ "$(tr '\n' ' ' <"$work/stdout" | grep -c 'from the zero of the  *logs')" -eq 0 ]
+
 finish

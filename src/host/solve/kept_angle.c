@@ -1,11 +1,12 @@
 /* In: the torque at one angle, and a direction in the rotor frame; out: the current along it, by Newton's
- * method from a neighbour. */
+ * method from a neighbour. Where the polynomial of a saturation turns round, past the largest torque that it
+ * has, it has further currents of the same torque, of either sign: iron has none of them. */
 #include "host/solve/kept_angle.h"
 
 #include <math.h>
 #include <stdbool.h>
 
-enum { STEPS = 60, HALVINGS = 20, PARTS = 32 };
+enum { STEPS = 60, HALVINGS = 20, WAY = 16 };
 
 #define ENOUGH 1e-13 /* of the torque that the back-EMF of the direction would make with the current */
 
@@ -57,26 +58,29 @@ static bool step(const hci_smooth_torque *torque, const double u[2], double want
     return false;
 }
 
-static void approach(const hci_smooth_torque *torque, const double u[2], double wanted_Nm, place *p)
+static int sign_of(double x)
+{
+    return (x > 0.0) - (x < 0.0);
+}
+
+/* Whether the torque goes one way with the length, from no current up to there: it has not turned round. */
+static bool is_before_turn(const hci_smooth_torque *torque, const double u[2], const place *p)
+{
+    int way = 0;
+    for (int k = 0; k <= WAY; ++k) {
+        const int sign = sign_of(place_at(torque, u, p->length_A * k / WAY, 0.0).slope);
+        if (way != 0 && sign != way) return false;
+        way = sign;
+    }
+    return true;
+}
+
+/* From a length to that of the torque. False: none is found before the torque turns round. */
+static bool find(const hci_smooth_torque *torque, const double u[2], double wanted_Nm, place *p)
 {
     for (int k = 0; k < STEPS && !is_found(p, wanted_Nm) && step(torque, u, wanted_Nm, p); ++k)
         continue;
-}
-
-/* A torque that saturates is made by two currents: beyond its largest it falls with the current. Then the
- * shorter one, which is between none and the one that was found. */
-static place shortest(const hci_smooth_torque *torque, const double u[2], double wanted_Nm, place found)
-{
-    place low = place_at(torque, u, 0.0, wanted_Nm);
-    if (!(low.slope * found.slope < 0.0)) return found;
-    for (int k = 1; k < PARTS; ++k) {
-        const place high = place_at(torque, u, found.length_A * k / PARTS, wanted_Nm);
-        if (!(low.error_Nm * high.error_Nm < 0.0)) continue;
-        place p = place_at(torque, u, 0.5 * (low.length_A + high.length_A), wanted_Nm);
-        approach(torque, u, wanted_Nm, &p);
-        return is_found(&p, wanted_Nm) && fabs(p.length_A) < fabs(found.length_A) ? p : found;
-    }
-    return found;
+    return is_found(p, wanted_Nm) && is_before_turn(torque, u, p);
 }
 
 hci_status hci_kept_angle_current(const hci_smooth_torque *torque, double theta_rad, double angle_rad,
@@ -84,10 +88,15 @@ hci_status hci_kept_angle_current(const hci_smooth_torque *torque, double theta_
 {
     double u[2];
     direction_at(theta_rad, angle_rad, u);
-    place p = place_at(torque, u, copysign(hypot(x[0], x[1]), x[0] * u[0] + x[1] * u[1]), wanted_Nm);
-    approach(torque, u, wanted_Nm, &p);
-    if (is_found(&p, wanted_Nm)) p = shortest(torque, u, wanted_Nm, p);
+    const double start_A = copysign(hypot(x[0], x[1]), x[0] * u[0] + x[1] * u[1]);
+    place p = place_at(torque, u, start_A, wanted_Nm);
+    bool found = find(torque, u, wanted_Nm, &p);
+    if (!found) {
+        p = place_at(torque, u, 0.0, wanted_Nm);
+        found = find(torque, u, wanted_Nm, &p);
+    }
+    if (!found) p.length_A = start_A;
     x[0] = p.length_A * u[0];
     x[1] = p.length_A * u[1];
-    return is_found(&p, wanted_Nm) ? HCI_OK : HCI_NOT_REACHED;
+    return found ? HCI_OK : HCI_NOT_REACHED;
 }

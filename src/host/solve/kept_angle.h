@@ -10,9 +10,9 @@
  * electrical angle, in its place. angle_rad: β. Returns its square. */
 double hci_kept_angle_project(double theta_rad, double angle_rad, double e[3]);
 
-/* The current along the direction that makes a torque. x: in, of the orthonormal plane, that of a
- * neighbouring angle or 0; out, also where the answer is no: then the nearest that was met. HCI_NOT_REACHED:
- * none was found. */
+/* The current along the direction that makes a torque, where the torque goes one way with it all the way from
+ * no current. x: in, of the orthonormal plane, that of a neighbouring angle or 0; out, where the answer is
+ * no: as long as it was. HCI_NOT_REACHED: none was found. */
 hci_status hci_kept_angle_current(const hci_smooth_torque *torque, double theta_rad, double angle_rad,
                                   double wanted_Nm, double x[2]);
 

@@ -294,11 +294,25 @@ static hci_status analyse_all(const analysis *a)
     return hci_vector_finite(12 * a->orders, a->answer->x) ? HCI_OK : HCI_ERROR_NOT_FINITE;
 }
 
+/* Along one direction there is nothing else to be had: the torque turns round before. */
+static hci_status refuse_gaps(const hci_task *t, const hci_solution *s, hci_note *note)
+{
+    return hci_note_set(
+        note, HCI_ERROR_NUMERIC,
+        "no current of this direction makes %.4g N·m in the model, at %zu range%s of angle, the first from "
+        "%.4g electrical degrees: with more current its torque falls again, as that of no motor does; ask "
+        "for "
+        "less torque, or find the model from recordings at several loads up to there",
+        hci_target_mean_Nm(t->target), s->gap_count, s->gap_count == 1 ? "" : "s",
+        s->gap[0].from_rad * 180.0 / HCI_PI);
+}
+
 static hci_status sample(const hci_task *t, size_t count, double *row, hci_solution *s, hci_note *note)
 {
     if (!is_linear(t)) {
         sample_strategy(t, count, row, s);
-        return hci_task_goes_on(t, note);
+        const hci_status status = hci_task_goes_on(t, note);
+        return status || !t->current_angle_rad || s->gap_count == 0 ? status : refuse_gaps(t, s, note);
     }
     if (sample_linear(t, count, row)) return HCI_OK;
     return hci_note_set(

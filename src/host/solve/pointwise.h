@@ -12,7 +12,7 @@ double hci_pointwise_mean_square_A2(const hci_task *task);
 /* The currents of task->strategy as waves in two columns, per N·m of mean torque and the rest (everything is
  * in the rest where currents are not linear in the torque). Angles without an answer are noted in *solution;
  * there the nearest current is taken. *answer is to be released in any case. HCI_ERROR_NUMERIC when e⊥
- * vanishes at an angle, _MEMORY. */
+ * vanishes at an angle, or a kept direction has no current there; _MEMORY. */
 hci_status hci_pointwise_answer(const hci_task *task, hci_answer *answer, hci_solution *solution,
                                 hci_note *note);
 

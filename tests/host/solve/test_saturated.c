@@ -554,6 +554,36 @@ static void test_the_shorter_current_of_two(void)
     }
 }
 
+/* A torque that falls again with the current has the same torque at currents far away, of either sign: none
+ * of them is an answer. T = 15 i/unit − 0.6 P (i/unit)³ has its largest value below 40 N·m. */
+static void test_a_torque_that_turns_round(void)
+{
+    static const double MEAN[] = {6.0, -6.0, 200.0, -200.0, 3000.0};
+    const term droop = {1, 2, 0.0, true, -0.6};
+    const double along_q = 0.0;
+    hci_solve_options o = options();
+    memset(&effects, 0, sizeof effects);
+    add_terms(&effects, &droop, 1);
+    o.method = HCI_METHOD_POINTWISE;
+    o.current_angle_rad = &along_q;
+    for (int k = 0; k < 5; ++k) {
+        hci_note note = {{0}};
+        hci_solution s;
+        want(MEAN[k], 6.0, 0.1);
+        const hci_status status = hci_solve(&machine, &o, &s, &note);
+        TEST_ASSERT_EQUAL_INT(k < 2 ? HCI_OK : HCI_ERROR_NUMERIC, status);
+        if (k < 2) {
+            double i[3], dq[2];
+            waves_at(s.current.wave, s.current.count, 0.4, i);
+            park(0.4, i, dq);
+            TEST_ASSERT_TRUE(dq[1] * MEAN[k] > 0.0);
+            hci_solution_release(&s);
+        } else {
+            TEST_ASSERT_NOT_NULL(strstr(note.text, "falls again"));
+        }
+    }
+}
+
 /* How the torque goes off the direction does not matter along it. */
 static void test_what_is_off_the_direction_is_no_matter(void)
 {
@@ -966,6 +996,7 @@ int main(void)
     RUN_TEST(test_cancel);
     RUN_TEST(test_currents_keep_their_angle);
     RUN_TEST(test_the_shorter_current_of_two);
+    RUN_TEST(test_a_torque_that_turns_round);
     RUN_TEST(test_what_is_off_the_direction_is_no_matter);
     RUN_TEST(test_reluctance_is_an_inductance_table);
     RUN_TEST(test_linear_effects_are_the_declared_machine);
