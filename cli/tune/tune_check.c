@@ -82,6 +82,13 @@ static void append_point(cli_tuning *t, const hci_check *c, const hci_check_find
            cli_tune_constant_option(t), (ratio > 1.0) == is_over ? "large" : "small");
 }
 
+/* Whether a column of the recordings is in another unit, and no figure of the sheet. */
+static bool is_of_unit(const char *slip)
+{
+    return (strncmp(slip, "torque_", 7) == 0 && strcmp(slip, "torque_sign") != 0) ||
+           strcmp(slip, "current_milliampere") == 0;
+}
+
 /* "Most likely the torque is in N·cm (98 %), or else ..., so nothing was solved" */
 static void take_slip(cli_tuning *t, const hci_check *c, const hci_check_finding *f, double probability)
 {
@@ -92,6 +99,10 @@ static void take_slip(cli_tuning *t, const hci_check *c, const hci_check_finding
     for (size_t k = 0; k < f->alternatives; ++k)
         if (!is_excluded(t, f->alternative[k])) append(t, "; or else %s", f->alternative_words[k]);
     append(t, "), so nothing was solved");
+    t->slip_is_of_unit = is_of_unit(f->slip);
+    if (t->slip_is_of_unit)
+        append(t, ": for %.100s, %.300s; where one log alone has it so, in the header of that", f->found,
+               f->should_be);
 }
 
 static void say_finding(cli_tuning *t, const hci_check *c, const hci_check_finding *f)

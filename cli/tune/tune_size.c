@@ -296,13 +296,29 @@ static double ratio_of_recordings(const cli_tuning *t)
     return ratio > 0.0 && fabs(log(ratio)) > log(OFF_SHEET_TORQUE) ? ratio : 1.0;
 }
 
+/* Magnets that no motor has are another unit of the recordings, and no figure of the sheet. */
+static void say_no_motor(const cli_tuning *t, const strength *x, double ratio, char *text, size_t size)
+{
+    const char *column = cli_tune_is_off_sheet(t) ? "" : column_of_unit(ratio);
+    snprintf(
+        text, size,
+        "the %s of the logs are %.3g times those of %s %.6g, which magnets of no motor make: a column is "
+        "in another unit%s%s%s",
+        cli_tune_is_off_sheet(t) ? "voltages" : "torques", ratio, x->option, number_of(t, x),
+        column[0] ? ", and --column " : "", column, column[0] ? "=COLUMN reads it in that" : "");
+}
+
 static bool say_measured(const cli_tuning *t, const strength *x, char *text, size_t size)
 {
     const double ratio = ratio_of_recordings(t), number = number_of(t, x);
     const char *by = cli_tune_is_off_sheet(t) ? "voltages" : "torques";
     double value = 0.0;
     if (!(fabs(ratio - 1.0) > 0.0)) return false;
-    const double emf = ratio * declared_emf(t);
+    const double emf = ratio * declared_emf(t), flux = emf / t->declared.model.pole_pairs;
+    if (!(flux > LEAST_FLUX && flux < MOST_FLUX)) {
+        if (!t->slip_is_of_unit) say_no_motor(t, x, ratio, text, size);
+        return !t->slip_is_of_unit;
+    }
     const strength *other = reading_near(t, x, number, emf, &value);
     if (!other && t->has_slip) return false;
     if (other)

@@ -348,6 +348,25 @@ check "a table of a torque that no current of this motor makes" [ ! -e beyond/ta
 run 1 tune magnets --runs droop.csv --torque 12 -o above
 says '; the currents do not keep a limit, rms 5\.657 A, but take [0-9.]*: the table is not for continuous use'
 
+# ---- remedies that can work: files and units by what is there
+
+run 3 tune droop0.4.csv drop0.6.csv --pole-pairs 5 --volt-per-krpm 97.5 -o none
+says 'drop0.6.csv: No such file; did you mean `droop0.6.csv`.'
+run 3 tune "$work/drop0.6.csv" --pole-pairs 5 --volt-per-krpm 97.5 -o none
+says "did you mean .$work/droop0.6.csv.[?]"
+run 3 tune 'nothing/*.csv' --pole-pairs 5 --volt-per-krpm 97.5 -o none
+says 'found no file of that pattern'
+run 3 tune nothing/at.csv --pole-pairs 5 --volt-per-krpm 97.5 -o none
+says 'its folder is not there either'
+awk -F, -v OFS=, 'NR > 1 { $6 *= 100 } 1' droop0.8.csv >centi.csv
+run 1 tune centi.csv --pole-pairs 5 --volt-per-krpm 97.5 -o centi
+says '^a convention is broken: .*; the torques of the logs are [0-9]* times those of --volt-per-krpm 97.5, which magnets of no motor make: .*--column torque_Ncm=COLUMN'
+check "a figure of the sheet in place of the unit of a column" [ "$(grep -c 'krpm 9750' "$work/stdout")" -eq 0 ]
+awk -F, 'NR == 1 { print "t [s],Angle [rad],Speed [rad/s],i_q [A],Torque [Nm]"; next } { print $1 "," $2 * 57.29578 "," $3 "," $5 "," $6 }' droop0.8.csv >degrees_as_rad.csv
+run 3 tune degrees_as_rad.csv --pole-pairs 5 --volt-per-krpm 97.5 -o none
+says 'found an angle that may be mechanical or electrical, expected one that goes where the speed leads; by the speed and the time of this file'
+check "the speed is asked for although it is there" [ "$(grep -c 'add the speed' "$work/stderr")" -eq 0 ]
+
 # ---- voltages of a scope alone: what the drive has to know of its angle
 
 awk 'BEGIN { print "time_s,v_ab_V,v_bc_V"; turn = 6.283185307179586

@@ -382,17 +382,25 @@ bool hci_csv_told(const hci_csv *csv, const char *name, hci_note *told)
 static hci_status unclear_error(const hci_csv *csv, size_t column, hci_note *note)
 {
     char remedy[240];
-    const hci_csv_fault fault = {.line = hci_csv_record_line(csv, 0),
-                                 .column = column,
-                                 .name = hci_csv_cell(csv, 0, column),
-                                 .found = "an angle that may be mechanical or electrical",
-                                 .expected = "theta_m or theta_e",
-                                 .remedy = remedy};
-    snprintf(remedy, sizeof remedy,
-             "rename the column to the one it is, say --column \"theta_m=%.60s\" (theta_m_deg in degrees, "
-             "theta_e of an "
-             "electrical angle), or add the speed",
-             hci_csv_cell(csv, 0, column));
+    hci_csv_fault fault = {.line = hci_csv_record_line(csv, 0),
+                           .column = column,
+                           .name = hci_csv_cell(csv, 0, column),
+                           .found = "an angle that may be mechanical or electrical",
+                           .expected = "theta_m or theta_e",
+                           .remedy = remedy};
+    if (hci_csv_has(csv, "speed_rad_per_s")) {
+        fault.expected = "one that goes where the speed leads";
+        snprintf(remedy, sizeof remedy,
+                 "by the speed and the time of this file it is neither in its unit: look at the units of the "
+                 "three, and rename here the column that is in another one (theta_m_deg, theta_m_rad, "
+                 "theta_e_deg, speed_rpm, time_ms)");
+    } else
+        snprintf(
+            remedy, sizeof remedy,
+            "rename the column to the one it is, say --column \"theta_m=%.60s\" (theta_m_deg in degrees, "
+            "theta_e of an "
+            "electrical angle), or add the speed",
+            hci_csv_cell(csv, 0, column));
     return hci_csv_fault_note(csv, &fault, note);
 }
 
