@@ -591,10 +591,21 @@ static void say_elsewhere(cli_tuning *t)
         ratio, words);
 }
 
+/* Columns that nobody named, and that may be what is missing. */
+static void append_of_columns(cli_tuning *t)
+{
+    const char *torque = cli_tune_lacks_torque(t) ? cli_tune_torque_like(t) : NULL;
+    const char *current = !t->has_slip && !torque ? cli_tune_current_like(t) : NULL;
+    if (torque)
+        append(t, "; if the column `%s` is a torque, add --column '%s'", strchr(torque, '=') + 1, torque);
+    if (current)
+        append(t, "; no current was read: if the column `%s` is i_q, add --column '%s'",
+               strchr(current, '=') + 1, current);
+}
+
 static void say_why_not_solved(cli_tuning *t)
 {
     hci_tuning *r = &t->tuning;
-    const char *column = cli_tune_lacks_torque(t) ? cli_tune_torque_like(t) : NULL;
     if (t->out_of_reach[0]) {
         snprintf(r->heading, sizeof r->heading, "Nothing was solved: %s", t->out_of_reach);
         return;
@@ -619,14 +630,7 @@ static void say_why_not_solved(cli_tuning *t)
                  why_blocked(t) ? why_blocked(t) : why_untold(t));
     else
         snprintf(r->heading, sizeof r->heading, "%s", t->slip);
-    if (column)
-        snprintf(r->heading + strlen(r->heading), sizeof r->heading - strlen(r->heading),
-                 "; if the column `%s` is a torque, add --column '%s'", strchr(column, '=') + 1, column);
-    column = !t->has_slip && !column ? cli_tune_current_like(t) : NULL;
-    if (column)
-        snprintf(r->heading + strlen(r->heading), sizeof r->heading - strlen(r->heading),
-                 "; no current was read: if the column `%s` is i_q, add --column '%s'",
-                 strchr(column, '=') + 1, column);
+    append_of_columns(t);
 }
 
 static void append_of_sheet(cli_tuning *t)

@@ -20,8 +20,7 @@ typedef struct {
  * out. O(n log n). */
 bool hci_repeats_find(const hci_repeats_question *question, bool *repeats);
 
-/* Whether the noise of the torque is four times as strong between orders 1 and 5 of the turn as between 20
- * and
+/* Whether the noise of the torque is four times as strong between orders 1 and 5 of the turn as from 20 to
  * 40. A mean over the turns has a number for each order alone, and cannot tell such noise from what repeats.
  * Less than 80 samples a turn do not tell. slow: out. False when memory is out. O(n log n). */
 bool hci_repeats_slow_noise(const hci_repeats_question *question, bool *slow);

@@ -96,18 +96,11 @@ static void test_means_of_noise_are_known(void)
     hci_attribution_release(&a);
 }
 
-/* Those of ten times the noise are not known, of a model that stands for a whole co-energy too. */
-static void test_means_that_no_law_predicts(void)
+/* Nothing of a model that stands for a whole co-energy stays, and the means are not known. */
+static void leaves_all_to_the_means(void)
 {
-    static const double OFF_NM[] = {1.0, -1.0, -0.6, 1.1, 0.4, -0.9, -0.2, 0.8};
     hci_attribution a = {.types = 0};
-    for (size_t r = 0; r < 8; ++r)
-        record(450, &(point){60.0 + 30.0 * (double)r, 0.0, 0.0, 10.0 * NOISE_NM * OFF_NM[r], 0.0});
-    search_start();
     search.whole_coenergy = true;
-    model_add("friction", "coulomb", NULL, 0.0);
-    model_add("friction", "viscous", NULL, 0.0);
-    model_add("friction", "quadratic", NULL, 0.0);
     model_fit();
     a.model = model;
     memset(&model, 0, sizeof model);
@@ -116,6 +109,19 @@ static void test_means_that_no_law_predicts(void)
     TEST_ASSERT_TRUE(a.unknown && a.means_open);
     TEST_ASSERT_FALSE(search.whole_coenergy);
     hci_attribution_release(&a);
+}
+
+/* Those of ten times the noise are not known, of a model that stands for a whole co-energy too. */
+static void test_means_that_no_law_predicts(void)
+{
+    static const double OFF_NM[] = {1.0, -1.0, -0.6, 1.1, 0.4, -0.9, -0.2, 0.8};
+    for (size_t r = 0; r < 8; ++r)
+        record(450, &(point){60.0 + 30.0 * (double)r, 0.0, 0.0, 10.0 * NOISE_NM * OFF_NM[r], 0.0});
+    search_start();
+    model_add("friction", "coulomb", NULL, 0.0);
+    model_add("friction", "viscous", NULL, 0.0);
+    model_add("friction", "quadratic", NULL, 0.0);
+    leaves_all_to_the_means();
 }
 
 /* Runs of another torque per ampere each, as of magnets whose temperature nobody wrote down. */
@@ -132,21 +138,12 @@ static void record_heat(void)
  */
 static void test_a_scale_of_each_run_is_no_saturation(void)
 {
-    hci_attribution a = {.types = 0};
     record_heat();
     search_start();
-    search.whole_coenergy = true;
     model.candidates.reference_current_A = 9.0;
     model_add("saturation", "d1q2_cosine", NULL, 0.0);
     model_add("saturation", "d1q3_cosine", NULL, 0.0);
-    model_fit();
-    a.model = model;
-    memset(&model, 0, sizeof model);
-    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_settle(&search, &a, &note));
-    TEST_ASSERT_EQUAL_UINT64(0, hci_candidates_types_in(&a.model.candidates));
-    TEST_ASSERT_TRUE(a.unknown && a.means_open);
-    TEST_ASSERT_FALSE(search.whole_coenergy);
-    hci_attribution_release(&a);
+    leaves_all_to_the_means();
 }
 
 /* Too few samples for a spectrum: noise is noise, and a wave that is slow beside them is none. */
