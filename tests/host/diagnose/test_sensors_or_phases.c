@@ -9,8 +9,11 @@ enum { SAMPLES = 240 };
 
 static const double READ_A = 0.01;
 
+static double phase_b; /* times its declared back-EMF, besides */
+
 void setUp(void)
 {
+    phase_b = 1.0;
     dataset_start();
 }
 
@@ -28,7 +31,8 @@ static double torque_of(double theta, double d, double q)
     double i[3], sum_Nm = 0.0;
     rec_phases(d, q, theta, i);
     for (int s = 0; s < 3; ++s)
-        sum_Nm += magnets * K_NM_PER_A * i[s] * sin(theta - 2.0 * REF_PI * s / 3.0);
+        sum_Nm +=
+            magnets * (s == 1 ? phase_b : 1.0) * K_NM_PER_A * i[s] * sin(theta - 2.0 * REF_PI * s / 3.0);
     return sum_Nm;
 }
 
@@ -153,18 +157,28 @@ static void read_wrong(double gain, double differs_Nm)
         }
 }
 
+static void with_cogging(void)
+{
+    hci_note text = {{0}};
+    files_write(files_path("cogging.csv"), "order,amplitude_Nm,phase_rad\n6,0.1,0\n12,0.06,0\n");
+    hci_machine_release(&machine);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_machine_read(files_root, &machine, &text), text.text);
+}
+
+static void measure_five(void)
+{
+    static const double D_A[] = {0.0, 0.0, -6.0, 5.0, 0.0}, Q_A[] = {0.0, 9.0, 9.0, 4.0, -7.0};
+    for (int k = 0; k < 5; ++k)
+        measure_at(&(sensors){.a_of_b = 0.0}, D_A[k], Q_A[k]);
+}
+
 /* A torque sensor that reads too little, of a machine one order of whose cogging torque is another one: the
  * other order shows that it is the sensor, and no gain that the phases or their sensors have in common. */
 static void test_a_gain_of_the_torque_sensor_beside_another_cogging_torque(void)
 {
-    hci_note text = {{0}};
     magnets = 1.0;
-    files_write(files_path("cogging.csv"), "order,amplitude_Nm,phase_rad\n6,0.1,0\n12,0.06,0\n");
-    hci_machine_release(&machine);
-    TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_machine_read(files_root, &machine, &text), text.text);
-    static const double D_A[] = {0.0, 0.0, -6.0, 5.0, 0.0}, Q_A[] = {0.0, 9.0, 9.0, 4.0, -7.0};
-    for (int k = 0; k < 5; ++k)
-        measure_at(&(sensors){.a_of_b = 0.0}, D_A[k], Q_A[k]);
+    with_cogging();
+    measure_five();
     read_wrong(-0.06, 0.08);
     TEST_ASSERT_EQUAL(HCI_OK, diagnose(NULL));
     TEST_ASSERT_EQUAL(HCI_FINDING_ADDED, found("torque_gain")->verdict);
@@ -173,6 +187,21 @@ static void test_a_gain_of_the_torque_sensor_beside_another_cogging_torque(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.002, -0.06, term("torque_gain", "gain", 0.0)->value);
     TEST_ASSERT_DOUBLE_WITHIN(0.004, 0.08, term("cogging", "cosine", 6.0)->value);
     TEST_ASSERT_DOUBLE_WITHIN(0.004, -0.08, term("cogging", "sine", 6.0)->value);
+}
+
+/* The same beside a phase that is weaker than the others, which is not taken for the gain. */
+static void test_a_gain_of_the_torque_sensor_beside_a_weak_phase(void)
+{
+    magnets = 1.0;
+    phase_b = 0.95;
+    with_cogging();
+    measure_five();
+    read_wrong(-0.06, 0.08);
+    diagnose(NULL);
+    TEST_ASSERT_EQUAL(HCI_FINDING_ADDED, found("torque_gain")->verdict);
+    TEST_ASSERT_DOUBLE_WITHIN(0.004, 0.08, term("cogging", "cosine", 6.0)->value);
+    TEST_ASSERT_DOUBLE_WITHIN(0.004, -0.06, term("torque_gain", "gain", 0.0)->value);
+    TEST_ASSERT_DOUBLE_WITHIN(0.012, -0.05, term("phase_imbalance", "b", 0.0)->value);
 }
 
 /* The current that holds a shaft which turns slowly, one way all the time, against friction and cogging. */
@@ -211,6 +240,7 @@ int main(void)
     RUN_TEST(test_one_gain_is_told);
     RUN_TEST(test_gains_that_differ_are_told);
     RUN_TEST(test_a_gain_of_the_torque_sensor_beside_another_cogging_torque);
+    RUN_TEST(test_a_gain_of_the_torque_sensor_beside_a_weak_phase);
     RUN_TEST(test_no_gain_is_found_in_noise);
     return UNITY_END();
 }

@@ -257,7 +257,8 @@ static hci_status scale_find(const hci_search *s, const hci_candidates *model, c
     return status;
 }
 
-/* The model with a gain in place of that, and of the orders of the cogging torque that show the same. */
+/* The model with a gain in place of the orders of the cogging torque that show it, and of that scale; of a
+ * scale that is kept, the gain is a part. */
 static hci_status read_make(hci_search *s, const hci_fitted_model *model, const hci_effect_type *scale,
                             double gain, hci_fitted_model *read, hci_note *note)
 {
@@ -267,22 +268,17 @@ static hci_status read_make(hci_search *s, const hci_fitted_model *model, const 
     for (size_t k = 0; !status && k < read->candidates.count; ++k)
         if (hci_modelled_gain_has(s->regression->machine, &model->candidates, gain, k))
             read->candidates.candidate[k].in = false;
-    if (!status) hci_candidates_remove_type(&read->candidates, scale);
+    if (!status && scale) hci_candidates_remove_type(&read->candidates, scale);
     if (!status) status = hci_candidates_add(&read->candidates, &x, note);
     return status ? status : hci_search_fit(s, read, note);
 }
 
-hci_status hci_search_torque_gain(hci_search *s, hci_fitted_model *model, bool *changed, hci_note *note)
+/* scale: what the gain stands in place of; NULL: of orders of the cogging torque alone. */
+static hci_status read_try(hci_search *s, hci_fitted_model *model, const hci_effect_type *scale, double gain,
+                           bool *changed, hci_note *note)
 {
-    const hci_effect_type *scale;
-    double gain;
     hci_fitted_model read = {0};
-    *changed = false;
-    if (hci_candidates_have(&model->candidates, torque_gain())) return HCI_OK;
-    hci_status status = scale_find(s, &model->candidates, &scale, &gain, note);
-    if (status || !scale || !hci_modelled_gain(s->regression->machine, &model->candidates, gain))
-        return status;
-    status = read_make(s, model, scale, gain, &read, note);
+    hci_status status = read_make(s, model, scale, gain, &read, note);
     *changed = !status && read.fit.score < model->fit.score - HCI_DECISIVE;
     if (*changed) {
         hci_fitted_model_replace(model, &read);
@@ -291,4 +287,17 @@ hci_status hci_search_torque_gain(hci_search *s, hci_fitted_model *model, bool *
     }
     hci_fitted_model_release(&read);
     return status;
+}
+
+hci_status hci_search_torque_gain(hci_search *s, hci_fitted_model *model, bool *changed, hci_note *note)
+{
+    const hci_effect_type *scale;
+    double gain;
+    *changed = false;
+    if (hci_candidates_have(&model->candidates, torque_gain())) return HCI_OK;
+    hci_status status = scale_find(s, &model->candidates, &scale, &gain, note);
+    if (status || !scale || !hci_modelled_gain(s->regression->machine, &model->candidates, gain))
+        return status;
+    status = read_try(s, model, scale, gain, changed, note);
+    return status || *changed ? status : read_try(s, model, NULL, gain, changed, note);
 }
