@@ -43,6 +43,8 @@ typedef struct {
     size_t index; /* in the list of runs */
     int pole_pairs;
     double finest_order;     /* of the declared cogging torque, in periods of a mechanical turn */
+    double Nm_per_A;         /* of i_q, of the machine as declared */
+    double follows_Nm_per_A; /* the same where the torque follows what of i_q does not repeat; else 0 */
     double holding_Nm_per_A; /* in a holding test, where the current of the q axis is what was measured; else
                                 0 */
     const hci_run_statistics *statistics;
@@ -108,13 +110,14 @@ static bool segment_finish(const reduction *x, hci_segment *s)
 {
     hci_binned_sample *sample = x->samples->sample + s->first;
     bool series = false;
-    const bool stands = x->statistics->no_current || x->statistics->stands;
+    const bool flows = x->follows_Nm_per_A != 0.0; /* what of the current is not one of the turn */
+    const bool stands = !flows && (x->statistics->no_current || x->statistics->stands);
     if (stands) currents_stand(sample, s->count, x->statistics->standing_A);
     for (size_t k = 0; k < s->count; ++k)
         sample[k].raw = sample[k].reading;
     /* in a holding test the current is what is measured, noise and all */
     if (x->run->torque_source != HCI_TORQUE_HOLDING &&
-        !hci_segment_smooth(sample, s, x->pole_pairs, x->run->turn_known, &series))
+        !hci_segment_smooth(sample, s, x->pole_pairs, x->run->turn_known, !flows, &series))
         return false;
     if (s->timed && !series) hci_current_rates_set(sample, s->count, x->pole_pairs);
     for (size_t k = 0; k < s->count; ++k) {
@@ -129,11 +132,13 @@ static bool segment_finish(const reduction *x, hci_segment *s)
 
 /* ---- means over turns ---- */
 
-/* What was measured: the torque, or in a holding test the current that held against it. */
+/* What was measured: the torque, less that of a current that swings, which the means have alike; or in a
+ * holding test the current that held against it. */
 static double measured_Nm(const reduction *r, const hci_binned_sample *x)
 {
-    if (r->holding_Nm_per_A == 0.0) return x->torque_Nm;
-    return -r->holding_Nm_per_A * hci_sample_dq(&x->reading, r->pole_pairs).q;
+    if (r->holding_Nm_per_A != 0.0) return -r->holding_Nm_per_A * hci_sample_dq(&x->reading, r->pole_pairs).q;
+    if (r->follows_Nm_per_A == 0.0) return x->torque_Nm;
+    return x->torque_Nm - r->follows_Nm_per_A * hci_sample_dq(&x->reading, r->pole_pairs).q;
 }
 
 static void mean_add(const reduction *r, hci_binned_sample *c, const hci_binned_sample *x)
@@ -173,9 +178,11 @@ static void means_take(const reduction *x, size_t first, size_t last, hci_binned
 }
 
 /* How many neighbouring bins are joined to one: the orders that are looked for take a few samples a period.
+ * None where the current swings beside the turn, since its means are no curve along the angle.
  */
 static size_t joined_to_one(const reduction *x)
 {
+    if (x->follows_Nm_per_A != 0.0) return 1;
     const size_t periods = x->run->turn_known ? (size_t)x->pole_pairs : 1;
     const size_t most = BINS_PER_TURN / (OF_PERIOD * periods);
     const size_t joined = x->many ? MOST_OF_MANY : MOST_JOINED;
@@ -279,6 +286,8 @@ static bool mean_segment(const reduction *x, const hci_turn *turns, size_t count
     s.count =
         bins_close(sample, hci_turn_direction(r, first, last), hci_turn_rad(x->run, x->pole_pairs), period_s);
     slopes_leave(x, sample, s.count);
+    for (size_t k = 0; k < s.count && x->follows_Nm_per_A != 0.0; ++k)
+        sample[k].spread_rad2 = 0.0;
     s.joined = s.count > 0 ? (double)narrow / (double)s.count : 1.0;
     x->samples->count += s.count;
     return segment_finish(x, &s);
@@ -479,13 +488,27 @@ static bool long_reduce(const reduction *x, const hci_turn *turns, size_t count)
     return turns_reduce(x, turns, count);
 }
 
-static bool run_reduce(const reduction *x)
+/* Whether the torque shows that what of the current does not repeat flowed. False when memory is out. */
+static bool follows_find(reduction *x, const hci_turn *turns, size_t count)
+{
+    const alike_turns alike = alike_find(x, turns, count);
+    bool follows = false;
+    if (alike.count < LEAST_TURNS) return true;
+    const hci_repeats_question q = {x->run,      x->statistics, x->pole_pairs,
+                                    alike.first, alike.samples, alike.samples / alike.count};
+    if (!hci_repeats_follows(&q, x->Nm_per_A, &follows)) return false;
+    x->follows_Nm_per_A = follows ? x->Nm_per_A : 0.0;
+    return true;
+}
+
+static bool run_reduce(reduction *x)
 {
     hci_turn *turns = NULL;
     size_t count = 0;
     bool worth = false;
     if (x->run->only_mean) return open_segment(x, 0, x->run->count);
     bool done = hci_turns_find(x->run, x->pole_pairs, &turns, &count);
+    done = done && follows_find(x, turns, count);
     if (done) x->samples->statistics[x->index].creeps = any_creeps(x, turns, count);
     if (done && x->run->count <= HCI_LONGEST_SEGMENT) done = means_weigh_of_many(x, turns, count, &worth);
     if (done && x->run->count <= HCI_LONGEST_SEGMENT && !is_sparse(x, turns, count) && !worth)
@@ -547,20 +570,22 @@ static bool run_add(const hci_machine *machine, const hci_run *runs, size_t k, h
     static const hci_effects none = {NULL, 0};
     const hci_run *run = &runs[k];
     hci_run_statistics *statistics = &samples->statistics[k];
-    const bool holds = run->torque_source == HCI_TORQUE_HOLDING;
+    const double Nm_per_A = hci_torque_constant(machine, &none);
     bool *at_rest = hci_memory_new(run->count + 1, sizeof *at_rest);
     double *acceleration = hci_memory_new(run->count + 1, sizeof *acceleration);
-    const reduction x = {run,
-                         k,
-                         machine->pole_pairs,
-                         finest_order(machine),
-                         holds ? hci_torque_constant(machine, &none) : 0.0,
-                         statistics,
-                         acceleration,
-                         at_rest,
-                         are_many(runs, samples->run_count),
-                         samples,
-                         capacity};
+    reduction x = {run,
+                   k,
+                   machine->pole_pairs,
+                   finest_order(machine),
+                   Nm_per_A,
+                   0.0,
+                   run->torque_source == HCI_TORQUE_HOLDING ? Nm_per_A : 0.0,
+                   statistics,
+                   acceleration,
+                   at_rest,
+                   are_many(runs, samples->run_count),
+                   samples,
+                   capacity};
     const bool done = run_fill(run, statistics, at_rest, acceleration) && (!is_usable(run) || run_reduce(&x));
     hci_memory_free(acceleration);
     hci_memory_free(at_rest);
@@ -571,11 +596,9 @@ static bool run_add(const hci_machine *machine, const hci_run *runs, size_t k, h
 static bool swings_fill(const hci_machine *machine, const hci_run *runs, const hci_swing_groups *known,
                         hci_binned_samples *samples)
 {
-    static const hci_effects none = {NULL, 0};
     for (size_t k = 0; k < samples->run_count; ++k) {
         hci_run_statistics *f = &samples->statistics[k];
-        const hci_swing_question question = {&runs[k], f, hci_torque_constant(machine, &none),
-                                             machine->pole_pairs};
+        const hci_swing_question question = {&runs[k], f, machine};
         const size_t swings = is_usable(&runs[k]) ? hci_swings_find(&question, known, f->swing) : 0;
         if (swings > HCI_MOST_SWINGS) return false;
         f->swings = swings;

@@ -13,6 +13,7 @@
 #define OF_NOISE   30.0 /* times the mean of the spectrum, of a line: of 10⁵ runs by chance in one */
 #define ALIKE      0.25 /* correlation of neighbours */
 #define SLOW_POWER 4.0  /* times the noise of higher orders, of noise that is slow */
+#define FOLLOWS    4.0  /* standard errors by which the torque goes along with a current */
 #define NONE       1e-4 /* of the torque or the current of a run, rms, that is next to nothing or rounding */
 
 enum { CHANNELS = 3 };
@@ -217,6 +218,38 @@ bool hci_repeats_find(const hci_repeats_question *question, bool *repeats)
     if (made) bins_fill(&x);
     for (int k = 0; k < CHANNELS && *repeats; ++k)
         *repeats = is_white(&x, k);
+    hci_memory_free(x.theta_rad);
+    hci_memory_free(x.bin);
+    return made;
+}
+
+/* What is left of the torque is in value and of i_q in re. */
+static bool is_followed(const departures *x, double Nm_per_A)
+{
+    double product = 0.0, current = 0.0, torque = 0.0;
+    for (size_t k = 0; k < x->q->count; ++k) {
+        product += x->re[k] * x->value[k];
+        current += x->re[k] * x->re[k];
+        torque += x->value[k] * x->value[k];
+    }
+    const double error = sqrt(torque * current / (double)x->q->count);
+    return product > 0.5 * Nm_per_A * current && product > FOLLOWS * error;
+}
+
+bool hci_repeats_follows(const hci_repeats_question *question, double Nm_per_A, bool *follows)
+{
+    departures x;
+    const bool made = departures_make(question, &x);
+    *follows = false;
+    if (made) {
+        bins_fill(&x);
+        values_fill(&x, 2);
+        means_leave(&x);
+        memcpy(x.re, x.value, question->count * sizeof *x.re);
+        values_fill(&x, 0);
+        means_leave(&x);
+        *follows = Nm_per_A > 0.0 && is_followed(&x, Nm_per_A);
+    }
     hci_memory_free(x.theta_rad);
     hci_memory_free(x.bin);
     return made;

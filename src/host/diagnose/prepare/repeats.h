@@ -20,6 +20,11 @@ typedef struct {
  * out. O(n log n). */
 bool hci_repeats_find(const hci_repeats_question *question, bool *repeats);
 
+/* Whether the torque goes along with what of i_q does not repeat: by more than half of Nm_per_A, and by four
+ * standard errors. That current flowed then, as of a supply that ripples; what a sensor's noise shows, the
+ * torque does not. follows: out. False when memory is out. O(samples). */
+bool hci_repeats_follows(const hci_repeats_question *question, double Nm_per_A, bool *follows);
+
 /* Whether the noise of the torque is four times as strong between orders 1 and 5 of the turn as from 20 to
  * 40. A mean over the turns has a number for each order alone, and cannot tell such noise from what repeats.
  * Less than 80 samples a turn do not tell. slow: out. False when memory is out. O(n log n). */

@@ -481,14 +481,14 @@ static bool series_make(hci_binned_sample *sample, const hci_segment *segment, i
 }
 
 bool hci_segment_smooth(hci_binned_sample *sample, const hci_segment *segment, int pole_pairs, bool turns,
-                        bool *series)
+                        bool currents, bool *series)
 {
     const size_t n = segment->count;
     *series = false;
     if (segment->timed && segment->turns == 0 && n > 4 * REACH && is_turning(sample, n) &&
         !angle_smooth(sample, n, pole_pairs, turns))
         return false;
-    if (!is_steady(sample, n, pole_pairs)) return true;
+    if (!currents || !is_steady(sample, n, pole_pairs)) return true;
     if (!series_make(sample, segment, pole_pairs, turns, series)) return false;
     if (*series || !turns || segment->turns > 0) return true;
     return series_make(sample, segment, pole_pairs, false, series); /* an arc tells no orders of the turn */

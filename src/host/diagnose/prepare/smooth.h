@@ -10,9 +10,10 @@
 #include "host/diagnose/prepare/segment.h"
 
 /* Smooths the readings of one segment in place where it is steady; where it is not they stay. turns: orders
- * of the mechanical turn are in it. series: out, whether the currents are a Fourier series over the angle
- * now, with their rate of change from that. False when memory is out. O(samples). */
+ * of the mechanical turn are in it. currents: these too, and not the angle alone. series: out, whether the
+ * currents are a Fourier series over the angle now, with their rate of change from that. False when memory is
+ * out. O(samples). */
 bool hci_segment_smooth(hci_binned_sample *sample, const hci_segment *segment, int pole_pairs, bool turns,
-                        bool *series);
+                        bool currents, bool *series);
 
 #endif

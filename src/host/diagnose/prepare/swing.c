@@ -6,6 +6,7 @@
 
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
+#include "host/machine/torque_constant.h"
 #include "host/numeric/fft.h"
 #include "host/numeric/peak.h"
 #include "host/numeric/statistics.h"
@@ -51,32 +52,39 @@ typedef struct {
     size_t refused;
 } changes;
 
-/* What is asked, and the current of each sample in the rotor frame. */
+/* What is asked, and of each sample the current in the rotor frame and what it does not make. */
 typedef struct {
     const hci_run *run;
     const hci_run_statistics *statistics;
-    double constant_Nm_per_A;
+    double constant_Nm_per_A; /* of the machine */
     int pole_pairs;
     hci_dq *current; /* to be freed */
+    double *left_Nm; /* what the current does not make of the torque; to be freed */
 } question;
 
 /* False when memory is out. */
 static bool question_make(const hci_swing_question *from, question *x)
 {
-    *x = (question){from->run, from->statistics, from->constant_Nm_per_A, from->pole_pairs, NULL};
-    x->current = hci_memory_new(x->run->count, sizeof *x->current);
-    for (size_t k = 0; x->current && k < x->run->count; ++k)
-        x->current[k] = hci_run_dq(x->run, x->pole_pairs, k);
-    return x->current != NULL;
+    static const hci_effects none = {NULL, 0};
+    const hci_run *r = from->run;
+    const int p = from->machine->pole_pairs;
+    *x = (question){r, from->statistics, hci_torque_constant(from->machine, &none), p, NULL, NULL};
+    x->current = hci_memory_new(r->count, sizeof *x->current);
+    x->left_Nm = hci_memory_new(r->count, sizeof *x->left_Nm);
+    for (size_t k = 0; x->current && x->left_Nm && k < r->count; ++k) {
+        x->current[k] = hci_run_dq(r, p, k);
+        x->left_Nm[k] = r->torque_Nm[k] - hci_torque_at(from->machine, p * r->theta_m_rad[k], r->i_A + 3 * k);
+    }
+    return x->current && x->left_Nm;
+}
+
+static void question_release(question *x)
+{
+    hci_memory_free(x->current);
+    hci_memory_free(x->left_Nm);
 }
 
 /* ---- one turn before ---- */
-
-/* What the current does not make of the torque at a sample. */
-static double left_Nm(const question *x, size_t k)
-{
-    return x->run->torque_Nm[k] - x->constant_Nm_per_A * x->current[k].q;
-}
 
 /* A place between two samples, one turn before another one. */
 typedef struct {
@@ -106,7 +114,7 @@ static double change_add(const question *x, size_t k, const place *p, double wei
 {
     const hci_run *r = x->run;
     const hci_dq now = x->current[k], from = x->current[p->at], to = x->current[p->at + 1];
-    c->change_Nm[mean] += weight * (left_Nm(x, k) - between(p, left_Nm(x, p->at), left_Nm(x, p->at + 1)));
+    c->change_Nm[mean] += weight * (x->left_Nm[k] - between(p, x->left_Nm[p->at], x->left_Nm[p->at + 1]));
     c->time_s[mean] += weight * r->time_s[k];
     c->before_s[mean] += weight * between(p, r->time_s[p->at], r->time_s[p->at + 1]);
     const double d = now.d - between(p, from.d, to.d), q = now.q - between(p, from.q, to.q);
@@ -378,7 +386,7 @@ static line line_of_torque(const question *x, double frequency_Hz)
     wave_sums w = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
     const double n = (double)r->count;
     for (size_t k = 0; k < r->count; ++k)
-        wave_add(&w, 2.0 * HCI_PI * frequency_Hz * r->time_s[k], left_Nm(x, k));
+        wave_add(&w, 2.0 * HCI_PI * frequency_Hz * r->time_s[k], x->left_Nm[k]);
     const double mean = w.sum / n;
     return (line){frequency_Hz, 2.0 / n * (w.of_cosine - mean * w.cosine),
                   2.0 / n * (w.of_sine - mean * w.sine), 0.0};
@@ -501,9 +509,9 @@ static size_t find(const question *x, const hci_swing_groups *known, hci_swing *
 size_t hci_swings_find(const hci_swing_question *asked, const hci_swing_groups *known,
                        hci_swing swing[HCI_MOST_SWINGS])
 {
-    question x;
+    question x = {0};
     if (!is_asked(asked)) return 0;
     const size_t count = question_make(asked, &x) ? find(&x, known, swing) : SIZE_MAX;
-    hci_memory_free(x.current);
+    question_release(&x);
     return count;
 }

@@ -350,6 +350,32 @@ static void test_a_current_that_swings_with_the_turn_has_a_mean(void)
 
 /* Neither speed nor current change for a moment only, or the current swings beside the turn, nearly with it
  * too: nothing is averaged, and parts of it stand for all. */
+/* A current that swings at a frequency of its own, as from the mains, with its torque: readings of means as
+ * they are, and no more scatter than the sensor's noise. */
+static void test_a_current_that_swings_beside_the_turn(void)
+{
+    const hci_wave back_emf = {1.0, 1, 0.2, 0.0}; /* 0.3 N·m/A of i_q */
+    const hci_machine machine = {.pole_pairs = P, .back_emf = &back_emf, .back_emf_count = 1};
+    double square = 0.0, scatter = 0.0;
+    turn_steadily(12.3, 1000.0, 20.0);
+    for (size_t k = 0; k < run.count; ++k) {
+        const double wave_A = 0.15 * sin(2.0 * REF_PI * 61.3 * run.time_s[k]);
+        rec_phases(0.0, 3.0 + wave_A, P * run.theta_m_rad[k], run.i_A + 3 * k);
+        run.torque_Nm[k] += 0.3 * (3.0 + wave_A);
+    }
+    reduce_of(&machine);
+    TEST_ASSERT_EQUAL_UINT64(12, binned.segment->turns);
+    for (size_t k = 0; k < binned.count; ++k) {
+        const hci_binned_sample *x = &binned.sample[k];
+        const double error = x->torque_Nm - torque_at(x->reading.theta_m_rad) -
+                             hci_torque_at(&machine, P * x->reading.theta_m_rad, x->reading.i_abc);
+        square += error * error * x->count / (double)binned.count;
+        scatter += x->scatter_N2m2 / (double)(run.count - binned.count);
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(0.05 * NOISE_NM, NOISE_NM, sqrt(square));
+    TEST_ASSERT_DOUBLE_WITHIN(0.05 * NOISE_NM, NOISE_NM, sqrt(scatter));
+}
+
 static void test_an_unsteady_run_stays(void)
 {
     for (int what = 0; what < 4; ++what) {
@@ -442,6 +468,7 @@ int main(void)
     RUN_TEST(test_turns_of_a_current_that_is_noise_and_an_offset);
     RUN_TEST(test_holding_there_and_back);
     RUN_TEST(test_a_current_that_swings_with_the_turn_has_a_mean);
+    RUN_TEST(test_a_current_that_swings_beside_the_turn);
     RUN_TEST(test_an_unsteady_run_stays);
     RUN_TEST(test_short_runs);
     RUN_TEST(test_an_uneven_free_shaft_stays);

@@ -58,6 +58,29 @@ static bool repeats(void)
     return answer;
 }
 
+static bool follows(double Nm_per_A)
+{
+    bool answer = false;
+    const hci_repeats_question question = {&run, &statistics, P, 0, run.count, 333};
+    TEST_ASSERT_TRUE(hci_repeats_follows(&question, Nm_per_A, &answer));
+    return answer;
+}
+
+/* A wave of the current that makes its torque, one that makes less than half of it, and one that the sensor
+ * alone shows; of a machine that makes nothing, and nothing but noise. */
+static void test_a_torque_that_follows(void)
+{
+    record(4000, 12.3, &(strange){.torque_Nm = 0.4 * 0.5, .current_A = 0.5, .wave_Hz = 300.7});
+    TEST_ASSERT_TRUE(follows(0.4));
+    TEST_ASSERT_TRUE(follows(0.7));
+    TEST_ASSERT_FALSE(follows(0.9));
+    TEST_ASSERT_FALSE(follows(0.0));
+    record(4000, 12.3, &(strange){.current_A = 0.5, .wave_Hz = 300.7});
+    TEST_ASSERT_FALSE(follows(0.4));
+    record(4000, 12.3, &(strange){.torque_Nm = 0.0});
+    TEST_ASSERT_FALSE(follows(1e-3));
+}
+
 /* Twelve turns at other angles each, and three at the same ones. */
 static void test_what_repeats(void)
 {
@@ -149,6 +172,7 @@ int main(void)
     RUN_TEST(test_noise_that_goes_on);
     RUN_TEST(test_slow_noise);
     RUN_TEST(test_odd_runs);
+    RUN_TEST(test_a_torque_that_follows);
     RUN_TEST(test_memory_is_out);
     return UNITY_END();
 }

@@ -9,6 +9,9 @@ enum { P = 4, N = 6000, RUNS = 4 };
 
 static const double RATE_HZ = 5000.0, K_NM_PER_A = 0.45, NOISE_NM = 0.02, IQ_A = 5.0;
 
+static const hci_machine MACHINE = {
+    .pole_pairs = P, .back_emf = (const hci_wave[]){{1.0, 1, 2.0 / 3.0 * 0.45, 0.0}}, .back_emf_count = 1};
+
 static hci_run run[RUNS];
 static hci_run_statistics statistics[RUNS];
 static uint64_t seed = 7;
@@ -49,7 +52,7 @@ static void record(size_t r, const point *x)
 
 static void find(size_t r, const hci_swing_groups *known)
 {
-    const hci_swing_question question = {&run[r], &statistics[r], K_NM_PER_A, P};
+    const hci_swing_question question = {&run[r], &statistics[r], &MACHINE};
     statistics[r].swings = hci_swings_find(&question, known, statistics[r].swing);
     TEST_ASSERT_TRUE(statistics[r].swings <= HCI_MOST_SWINGS);
 }
@@ -175,6 +178,21 @@ static void test_what_is_no_swing_of_its_own(void)
         TEST_ASSERT_EQUAL_UINT64(0, statistics[r].swings);
 }
 
+/* What a current that swings at 300 Hz makes with a harmonic of the back-EMF swings at 300 Hz and six times
+ * the electrical frequency more and less: of the machine, not of a load. */
+static void test_a_harmonic_of_the_back_emf_makes_no_swing(void)
+{
+    const hci_wave e[] = {MACHINE.back_emf[0], {5.0, -1, 0.02, 0.0}};
+    const hci_machine machine = {.pole_pairs = P, .back_emf = e, .back_emf_count = 2};
+    record(0, &(point){10.3, 300.0, 0.0, 0.3, 0.0});
+    for (size_t k = 0; k < N; ++k)
+        run[0].torque_Nm[k] = hci_torque_at(&machine, P * run[0].theta_m_rad[k], run[0].i_A + 3 * k) +
+                              0.1 * NOISE_NM * ref_normal(&seed);
+    statistics[0] = hci_run_statistics_of(&run[0], P);
+    const hci_swing_question question = {&run[0], &statistics[0], &machine};
+    TEST_ASSERT_EQUAL_UINT64(0, hci_swings_find(&question, NULL, statistics[0].swing));
+}
+
 /* A motor of a millionth of the torque swings as the large one does. */
 static void test_a_small_motor_swings_too(void)
 {
@@ -186,7 +204,10 @@ static void test_a_small_motor_swings_too(void)
     for (size_t k = 0; k < N; ++k)
         run[0].torque_Nm[k] *= small;
     statistics[0] = hci_run_statistics_of(&run[0], P);
-    const hci_swing_question question = {&run[0], &statistics[0], small * K_NM_PER_A, P};
+    hci_wave weak = MACHINE.back_emf[0];
+    weak.sine *= small;
+    const hci_machine machine = {.pole_pairs = P, .back_emf = &weak, .back_emf_count = 1};
+    const hci_swing_question question = {&run[0], &statistics[0], &machine};
     statistics[0].swings = hci_swings_find(&question, NULL, statistics[0].swing);
     TEST_ASSERT_EQUAL_UINT64(1, statistics[0].swings);
     const hci_swing *x = &statistics[0].swing[0];
@@ -204,6 +225,7 @@ int main(void)
     RUN_TEST(test_a_multiple_of_the_mains);
     RUN_TEST(test_a_belt);
     RUN_TEST(test_what_is_no_swing_of_its_own);
+    RUN_TEST(test_a_harmonic_of_the_back_emf_makes_no_swing);
     RUN_TEST(test_a_small_motor_swings_too);
     return UNITY_END();
 }
