@@ -145,12 +145,18 @@ static bool is_order(const hci_limit_build *b, size_t k, double order)
     return fabs(b->of->field.set->component[k].order - order) < HCI_ORDER_TOLERANCE;
 }
 
+/* Whether any of the first `count` components has an order. */
+static bool has_order(const hci_limit_build *b, size_t count, double order)
+{
+    for (size_t k = 0; k < count; ++k)
+        if (is_order(b, k, order)) return true;
+    return false;
+}
+
 /* Whether component k is the first of its order. */
 static bool begins_order(const hci_limit_build *b, size_t k)
 {
-    for (size_t j = 0; j < k; ++j)
-        if (is_order(b, j, b->of->field.set->component[k].order)) return false;
-    return true;
+    return !has_order(b, k, b->of->field.set->component[k].order);
 }
 
 /* Coordinate S' (part 0) or C' (part 1) of one order as one phase sees it, times a factor. */
@@ -200,21 +206,29 @@ static void add_heat_head(hci_limit_build *b, size_t limit_of)
     b->limit_of[b->rows - 1] = limit_of;
 }
 
-/* The rms current of a phase: √(Σ ½(S'² + C'²)) <= limit, a direct current in full. */
+/* What one order brings to the rms current of a phase over its limit: √½ S' and √½ C', a direct current in
+ * full. */
+static void add_rms_order(hci_limit_build *b, int phase, double order, double limit_A)
+{
+    const bool is_mean = order < HCI_ORDER_TOLERANCE;
+    for (int part = is_mean ? 1 : 0; part < 2; ++part) {
+        const phase_part x = {order, phase, part, (is_mean ? 1.0 : sqrt(0.5)) / limit_A};
+        double *row = hci_limit_row_add(b);
+        if (row) phase_row(b, &x, row);
+    }
+}
+
+/* √(Σ ½(S'² + C'²)) <= limit, what is held included. */
 static void add_rms(hci_limit_build *b, int phase)
 {
+    const hci_component_set *set = b->of->field.set;
+    const hci_wave *held = b->of->field.held;
     const double limit_A = b->of->bounds->rms_A[phase] * (1.0 + b->of->widened);
     if (!(limit_A < HUGE_VAL)) return;
     add_heat_head(b, hci_limit_tag(HCI_LIMIT_RMS, phase));
-    for (size_t k = 0; k < b->of->field.set->count; ++k) {
-        const double order = b->of->field.set->component[k].order;
-        const bool is_mean = order < HCI_ORDER_TOLERANCE;
-        for (int part = is_mean ? 1 : 0; begins_order(b, k) && part < 2; ++part) {
-            const phase_part x = {order, phase, part, (is_mean ? 1.0 : sqrt(0.5)) / limit_A};
-            double *row = hci_limit_row_add(b);
-            if (row) phase_row(b, &x, row);
-        }
-    }
+    for (size_t k = 0; k < set->count; ++k)
+        if (begins_order(b, k)) add_rms_order(b, phase, set->component[k].order, limit_A);
+    if (held && !has_order(b, set->count, held->order)) add_rms_order(b, phase, held->order, limit_A);
     hci_limit_cone_end(b);
 }
 
