@@ -24,9 +24,14 @@ static hci_voltage_model model;
 static hci_component_set set;
 static hci_limit_field field;
 
-void setUp(void)
+static void make_model(void)
 {
     hci_note note = {{0}};
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_voltage_model_make(&machine, &options, &model, &note), note.text);
+}
+
+void setUp(void)
+{
     memset(&machine, 0, sizeof machine);
     memset(&options, 0, sizeof options);
     memset(&field, 0, sizeof field);
@@ -36,7 +41,7 @@ void setUp(void)
     machine.resistance_ohm = R_ohm;
     machine.inductance_d_H = machine.inductance_q_H = L_H;
     options.speed_rad_per_s = W;
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_voltage_model_make(&machine, &options, &model, &note), note.text);
+    make_model();
     set = (hci_component_set){component, name, COUNT, {{0}}};
     field.set = &set;
     field.held = &HELD;
@@ -130,6 +135,128 @@ static void test_sizes_of_vectors(void)
     }
 }
 
+/* ---- inductances over the angle, and effects ---- */
+
+/* L of two phases at an angle: of L_d and L_q, or with a table besides of any matrix of two orders. */
+static double inductance_H(int row, int column, double theta)
+{
+    double l = 0.0;
+    for (int axis = 0; axis < 2;
+         ++axis) { /* d is −cos θ, q as the sine of the back-EMF: e_d, e_q of phases */
+        const double in_row =
+            axis ? sin(theta - row * 2.0 * REF_PI / 3.0) : cos(theta - row * 2.0 * REF_PI / 3.0);
+        const double in_column =
+            axis ? sin(theta - column * 2.0 * REF_PI / 3.0) : cos(theta - column * 2.0 * REF_PI / 3.0);
+        l += 2.0 / 3.0 * (axis ? machine.inductance_q_H : machine.inductance_d_H) * in_row * in_column;
+    }
+    return l;
+}
+
+static double table_H(int row, int column, double theta)
+{
+    static const int PLACE[3][3] = {
+        {HCI_AA, HCI_AB, HCI_CA}, {HCI_AB, HCI_BB, HCI_BC}, {HCI_CA, HCI_BC, HCI_CC}};
+    double l = 0.0;
+    for (size_t k = 0; k < machine.inductance_count; ++k) {
+        const hci_inductance *h = &machine.inductance[k];
+        l += h->sine[PLACE[row][column]] * sin(h->order * theta) +
+             h->cosine[PLACE[row][column]] * cos(h->order * theta);
+    }
+    return l;
+}
+
+static double plane_current(int s, double theta)
+{
+    double sum = sine_of(HELD, s, theta);
+    for (int k = 0; k < COUNT; ++k)
+        if (component[k].sequence != 0) sum += sine_of(wave_of(k), s, theta);
+    return sum;
+}
+
+/* Flux of a phase; a sum of the phases makes no line voltage. */
+static double flux_Vs(double (*matrix)(int, int, double), int s, double theta)
+{
+    double sum = 0.0;
+    for (int c = 0; c < 3; ++c)
+        sum += matrix(s, c, theta) * plane_current(c, theta);
+    return sum;
+}
+
+/* v = R i + dψ/dt + ω e, the flux's slope by a difference of fourth order, without what the phases have in
+ * common. */
+static void phase_voltages(double (*matrix)(int, int, double), double theta, double v[3])
+{
+    const double h = 1e-3;
+    double common = 0.0;
+    for (int s = 0; s < 3; ++s) {
+        const double near = flux_Vs(matrix, s, theta + h) - flux_Vs(matrix, s, theta - h),
+                     far = flux_Vs(matrix, s, theta + 2.0 * h) - flux_Vs(matrix, s, theta - 2.0 * h);
+        v[s] = R_ohm * plane_current(s, theta) + 2.0 * W * (8.0 * near - far) / (12.0 * h);
+        for (int w = 0; w < 2; ++w)
+            v[s] += W * sine_of(emf[w], s, theta);
+        common += v[s] / 3.0;
+    }
+    for (int s = 0; s < 3; ++s)
+        v[s] -= common;
+}
+
+/* Rows, and the voltage of the currents as waves: of lines, of phases twice where no zero sequence is added,
+ * and √3 times the amplitude. */
+static void check_voltages(double (*matrix)(int, int, double))
+{
+    hci_wave wave[COUNT + 1];
+    const hci_wave_list all = {wave, COUNT + 1};
+    for (int k = 0; k < COUNT; ++k)
+        wave[k] = wave_of(k);
+    wave[COUNT] = HELD;
+    for (int k = 0; k < 48; ++k) {
+        const double theta = 0.27 * k;
+        double v[3], square = 0.0;
+        model.modulation = k % 2 ? HCI_MODULATION_SINUSOIDAL : HCI_MODULATION_SPACE_VECTOR;
+        phase_voltages(matrix, theta, v);
+        for (int s = 0; s < 3; ++s) {
+            const double link = k % 2 ? 2.0 * v[s] : v[s] - v[(s + 1) % 3];
+            const hci_limit_point point = {HCI_POINT_VOLTAGE, s, theta, 0.0};
+            square += v[s] * v[s];
+            TEST_ASSERT_DOUBLE_WITHIN(1e-7, link, value_at(HCI_POINT_VOLTAGE, s, theta));
+            TEST_ASSERT_DOUBLE_WITHIN(1e-7, link, hci_limit_link_V(&field, &point, &all));
+        }
+        const hci_limit_point circle = {HCI_POINT_VECTOR, 0, theta, 0.0};
+        TEST_ASSERT_DOUBLE_WITHIN(1e-7, sqrt(2.0 * square), hci_limit_link_V(&field, &circle, &all));
+        TEST_ASSERT_DOUBLE_WITHIN(1e-7, sqrt(2.0 * square), value_at(HCI_POINT_VECTOR, 0, theta));
+    }
+}
+
+static void test_voltages_of_a_salient_rotor(void)
+{
+    machine.inductance_d_H = 0.8e-3;
+    machine.inductance_q_H = 1.7e-3;
+    make_model();
+    check_voltages(inductance_H);
+}
+
+static void test_voltages_of_a_table_of_inductances(void)
+{
+    static hci_inductance table[] = {
+        {0.0, {0.0}, {1.1e-3, 1.3e-3, 0.9e-3, -2e-4, -4e-4, -3e-4}},
+        {2.0, {2e-4, -1e-4, 5e-5, 1e-4, -7e-5, 3e-5}, {-6e-5, 2e-4, 1e-4, 4e-5, 5e-5, -9e-5}},
+        {4.0, {3e-5, 4e-5, -2e-5, 1e-5, 2e-5, -3e-5}, {2e-5, -1e-5, 4e-5, 3e-5, -2e-5, 1e-5}}};
+    static hci_inductance_slope slope[2];
+    for (int k = 0; k < 2; ++k) {
+        slope[k].order = table[k + 1].order;
+        for (int q = 0; q < HCI_PHASE_MATRIX; ++q) { /* L' = p dL/dθ */
+            slope[k].sine[q] = -2.0 * slope[k].order * table[k + 1].cosine[q];
+            slope[k].cosine[q] = 2.0 * slope[k].order * table[k + 1].sine[q];
+        }
+    }
+    machine.inductance = table;
+    machine.inductance_count = 3;
+    machine.model.slope = slope;
+    machine.model.slope_count = 2;
+    make_model();
+    check_voltages(table_H);
+}
+
 static void test_limits_of_points(void)
 {
     const hci_bounds bounds = {.current_A = {7.0, 8.0, 9.0}, .line_V = 300.0};
@@ -145,6 +272,8 @@ int main(void)
     RUN_TEST(test_currents_of_phases);
     RUN_TEST(test_voltages_of_lines);
     RUN_TEST(test_sizes_of_vectors);
+    RUN_TEST(test_voltages_of_a_salient_rotor);
+    RUN_TEST(test_voltages_of_a_table_of_inductances);
     RUN_TEST(test_limits_of_points);
     return UNITY_END();
 }
