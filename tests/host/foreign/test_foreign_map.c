@@ -411,6 +411,45 @@ static void test_angle_there_and_back(void)
     }
 }
 
+/* Between two rows a drive goes straight, and from the last one to the first: hat functions; for each ampere
+ * of its own it adds the third and fourth column. Harmonics are sines of the drive's angle. */
+static void added_by(const hci_foreign_map *map, double turn, double own_A, double add[2])
+{
+    add[0] = add[1] = 0.0;
+    for (size_t j = 0; j < map->terms; ++j)
+        add[1] += map->term[j].amplitude *
+                  sin(map->term[j].order * turn * 2.0 * 3.14159265358979324 + map->term[j].phase_rad);
+    for (size_t j = 0; j < map->points; ++j) {
+        const double apart = fabs(turn * (double)map->points - (double)j),
+                     around = (double)map->points - apart;
+        const double share = fmax(0.0, 1.0 - fmin(apart, around)), *v = map->value + j * map->columns;
+        if (map->columns == 1) add[1] += share * v[0];
+        for (size_t c = 0; c < 2 && map->columns > 1; ++c)
+            add[c] += share * (v[c] + (map->columns == 4 ? own_A * v[2 + c] : 0.0));
+    }
+}
+
+static void test_what_drives_make_of_a_map(void)
+{
+    for (int name = 0; name < HCI_FOREIGN_TARGET_COUNT; ++name) {
+        const hci_foreign_type *type = hci_foreign_types[name];
+        const bool exact = name == HCI_FOREIGN_CSV;
+        const bool straight = exact || name == HCI_FOREIGN_SIMPLEFOC || name == HCI_FOREIGN_MOTEUS;
+        if (!straight && type->most_terms == 0) continue;
+        fill(&written, (hci_foreign_name)name, 7);
+        const double near = exact ? 1e-12 : written.counts_per_A > 0.0 ? 1.0 / written.counts_per_A : 2e-4;
+        for (int k = 0; k < 997; ++k) {
+            const double turn = k / 997.0, own_A = 0.7 * (k % 5) - 1.1;
+            double add[2], wanted[2];
+            type->at(&written, turn, own_A, add);
+            added_by(&written, turn, own_A, wanted);
+            for (int c = 0; c < 2; ++c)
+                TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(near, wanted[c], add[c], type->word);
+        }
+        hci_foreign_map_release(&written);
+    }
+}
+
 /* A chord of a smooth curve is as far above it as below. */
 static void test_balanced_nodes_halve_the_error(void)
 {
@@ -505,6 +544,7 @@ int main(void)
     RUN_TEST(test_terms_are_the_strongest_orders);
     RUN_TEST(test_waves_are_the_same_sine);
     RUN_TEST(test_angle_there_and_back);
+    RUN_TEST(test_what_drives_make_of_a_map);
     RUN_TEST(test_balanced_nodes_halve_the_error);
     RUN_TEST(test_out_of_memory_leaves_nothing);
     RUN_TEST(test_out_of_memory_when_reading);

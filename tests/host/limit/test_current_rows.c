@@ -43,6 +43,8 @@ void tearDown(void)
 {
     hci_limit_build_release(&build);
     memset(&build, 0, sizeof build);
+    hci_limit_grid_release(&program.grid[0]);
+    hci_limit_points_release(&program.points);
 }
 
 static void begin(hci_limit_stage stage)
@@ -256,6 +258,44 @@ static void test_currents_out_of_reach(void)
         }
 }
 
+/* The size of a voltage vector: a cone with a row for each axis of the plane, whose head has the multiplier.
+ */
+static void test_sizes_of_voltages(void)
+{
+    static hci_wave emf[] = {{1.0, 1, 0.2, 0.05}};
+    hci_machine_data machine = {
+        .pole_pairs = 2, .resistance_ohm = 0.5, .inductance_d_H = 1e-3, .inductance_q_H = 1e-3};
+    const hci_solve_options options = {.speed_rad_per_s = 300.0};
+    hci_voltage_model model;
+    hci_note note;
+    machine.model = (hci_machine){.pole_pairs = 2, .back_emf = emf, .back_emf_count = 1};
+    TEST_ASSERT_EQUAL(HCI_OK, hci_voltage_model_make(&machine, &options, &model, &note));
+    bounds.line_V = 90.0;
+    for (int fit = 0; fit < 2; ++fit) {
+        const hci_limit_point point = {HCI_POINT_VECTOR, 0, 0.8, 0.0};
+        double g[8 * COUNT];
+        program.field.voltage = &model;
+        program.points = (hci_limit_points){0};
+        TEST_ASSERT_EQUAL(HCI_OK, hci_limit_points_add(&program.points, point));
+        TEST_ASSERT_EQUAL(HCI_OK, hci_limit_points_fill(&program.field, &program.points));
+        begin(fit ? HCI_STAGE_FIT : HCI_STAGE_COPPER);
+        hci_limit_add_angles(&build); /* no row of an angle */
+        hci_limit_add_vectors(&build);
+        TEST_ASSERT_TRUE(build.cones == 1 && build.cone[0] == 3 && build.rows == 3);
+        TEST_ASSERT_EQUAL_DOUBLE(fit ? 1.0 + OBJECTIVE : 1.0, left(0));
+        hci_limit_rows(&program.field, &point, g);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12,
+                                  hci_limit_value(HCI_POINT_VECTOR, 2 * COUNT, g, X) /
+                                      (90.0 * (1.0 + WIDENED) * (1.0 - 2e-9)),
+                                  length_of(0, 3));
+        for (size_t k = 0; k < 3; ++k) {
+            TEST_ASSERT_EQUAL_UINT64(k == 0 ? hci_limit_tag(HCI_LIMIT_VOLTAGE, 0) : 0, build.limit_of[k]);
+            TEST_ASSERT_EQUAL(HCI_POINT_VECTOR, build.at[k].kind);
+        }
+        hci_limit_points_release(&program.points);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -265,5 +305,6 @@ int main(void)
     RUN_TEST(test_a_phase_that_is_open);
     RUN_TEST(test_currents_at_angles);
     RUN_TEST(test_currents_out_of_reach);
+    RUN_TEST(test_sizes_of_voltages);
     return UNITY_END();
 }

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "support/effect_list.h"
 #include "support/reference.h"
 #include "unity.h"
 
@@ -257,6 +258,64 @@ static void test_voltages_of_a_table_of_inductances(void)
     check_voltages(table_H);
 }
 
+/* What effects add is a polynomial of the currents: at those where it was made linear a row has their true
+ * voltage, and its slope is that of the true one. */
+static void test_voltages_of_effects_are_made_linear(void)
+{
+    static el_list list;
+    hci_wave wave[COUNT + 1];
+    const hci_wave_list at = {wave, COUNT + 1};
+    double g[8 * COUNT];
+    memset(&list, 0, sizeof list);
+    el_add(&list, "reluctance", "dd_cosine", 0.0, 3e-4);
+    el_add(&list, "reluctance", "dq_cosine", 0.0, -2e-4);
+    el_add(&list, "reluctance", "qq_cosine", 6.0, 1e-4);
+    el_add(&list, "back_emf", "sine", 5.0, 0.03);
+    el_add(&list, "saturation", "d1q2_cosine", 0.0, 0.4);
+    el_add(&list, "saturation", "d0q3_sine", 6.0, 0.2);
+    el_add(&list, "saturation", "reference_current", 0.0, 8.0);
+    options.effects = &list.list;
+    make_model();
+    field.at = &at;
+    TEST_ASSERT_TRUE(hci_limit_is_bent(&field));
+    for (int k = 0; k < COUNT; ++k)
+        wave[k] = wave_of(k);
+    wave[COUNT] = HELD;
+    for (int k = 0; k < 18; ++k) {
+        const hci_limit_point point = {HCI_POINT_VOLTAGE, k % 3, 0.37 * k, 0.0};
+        const double there_V = hci_limit_link_V(&field, &point, &at);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9 * fabs(there_V) + 1e-9, there_V,
+                                  value_at(HCI_POINT_VOLTAGE, k % 3, 0.37 * k));
+        hci_limit_rows(&field, &point, g);
+        for (int c = 0; c < COUNT; ++c)
+            for (int part = 0; part < 2; ++part) {
+                double *x = part ? &wave[c].cosine : &wave[c].sine, end_V[2];
+                const double was = *x;
+                for (int side = 0; side < 2; ++side) {
+                    *x = was + (side ? 1e-3 : -1e-3);
+                    end_V[side] = hci_limit_link_V(&field, &point, &at);
+                }
+                *x = was;
+                TEST_ASSERT_DOUBLE_WITHIN(1e-4, (end_V[1] - end_V[0]) / 2e-3, g[2 * c + part]);
+            }
+    }
+}
+
+/* Without its values a machine tells no voltage; at standstill no inductance is asked for. */
+static void test_values_that_a_voltage_needs(void)
+{
+    for (int k = 0; k < 8; ++k) {
+        hci_note missing = {{0}};
+        machine.resistance_ohm = k & 1 ? (double)NAN : R_ohm;
+        machine.inductance_q_H = k & 2 ? (double)NAN : L_H;
+        options.speed_rad_per_s = k & 4 ? 0.0 : W;
+        const bool enough = !(k & 1) && (!(k & 2) || (k & 4));
+        TEST_ASSERT_EQUAL(enough ? HCI_OK : HCI_ERROR_INPUT,
+                          hci_voltage_model_make(&machine, &options, &model, &missing));
+        TEST_ASSERT_EQUAL(!enough, strstr(missing.text, "resistance") != NULL);
+    }
+}
+
 static void test_limits_of_points(void)
 {
     const hci_bounds bounds = {.current_A = {7.0, 8.0, 9.0}, .line_V = 300.0};
@@ -274,6 +333,8 @@ int main(void)
     RUN_TEST(test_sizes_of_vectors);
     RUN_TEST(test_voltages_of_a_salient_rotor);
     RUN_TEST(test_voltages_of_a_table_of_inductances);
+    RUN_TEST(test_voltages_of_effects_are_made_linear);
+    RUN_TEST(test_values_that_a_voltage_needs);
     RUN_TEST(test_limits_of_points);
     return UNITY_END();
 }
