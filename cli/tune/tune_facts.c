@@ -102,20 +102,48 @@ const char *cli_tune_order_words(const cli_tuning *t, double order, char text[CL
 /* Of two mean speeds, in one direction, that tell nothing that one does not. */
 #define ONE_SPEED 1.2
 
+/* A part of a recording, of several tests maybe, that is taken for one speed: it varies by less, rms. */
+#define STEADY 0.15
+enum { PARTS_OF_SPEEDS = 16 };
+
+typedef struct {
+    double least, most; /* rad/s, mean speeds */
+} range_of_speeds;
+
+/* Of samples from `from` up to `end`, where their speed is steady or does not have to be. */
+static void add_speed(const hci_run *r, size_t from, size_t end, bool may_vary, range_of_speeds *s)
+{
+    double mean = 0.0, square = 0.0;
+    for (size_t n = from; n < end; ++n)
+        mean += r->speed_rad_per_s[n] / (double)(end - from);
+    for (size_t n = from; n < end; ++n)
+        square += pow(r->speed_rad_per_s[n] - mean, 2.0) / (double)(end - from);
+    if (!may_vary && !(square < STEADY * STEADY * mean * mean)) return;
+    s->least = fmin(s->least, mean);
+    s->most = fmax(s->most, mean);
+}
+
+/* Of its steady parts, as of a file with several tests; of none, its mean. */
+static void add_speeds(const hci_run *r, range_of_speeds *s)
+{
+    range_of_speeds own = {HUGE_VAL, -HUGE_VAL};
+    for (size_t k = 0; k < PARTS_OF_SPEEDS && r->count >= PARTS_OF_SPEEDS; ++k)
+        add_speed(r, k * r->count / PARTS_OF_SPEEDS, (k + 1) * r->count / PARTS_OF_SPEEDS, false, &own);
+    if (own.least > own.most) add_speed(r, 0, r->count, true, &own);
+    s->least = fmin(s->least, own.least);
+    s->most = fmax(s->most, own.most);
+}
+
 /* Whether all that a torque sensor has measured in time is of one speed: one that reads late turns the orders
  * by an angle that is not told then. */
 static bool has_one_speed(const cli_tuning *t)
 {
-    double least = HUGE_VAL, most = -HUGE_VAL;
+    range_of_speeds s = {HUGE_VAL, -HUGE_VAL};
     for (size_t k = 0; k < t->runs.count; ++k) {
         const hci_run *r = &t->runs.run[k];
-        double mean = 0.0;
-        if (r->torque_source != HCI_TORQUE_MEASURED || !r->time_s || !r->speed_rad_per_s) continue;
-        for (size_t n = 0; n < r->count; ++n)
-            mean += r->speed_rad_per_s[n] / (double)r->count;
-        least = fmin(least, mean);
-        most = fmax(most, mean);
+        if (r->torque_source == HCI_TORQUE_MEASURED && r->time_s && r->speed_rad_per_s) add_speeds(r, &s);
     }
+    const double least = s.least, most = s.most;
     return least * most > 0.0 && fmax(fabs(least), fabs(most)) < ONE_SPEED * fmin(fabs(least), fabs(most));
 }
 

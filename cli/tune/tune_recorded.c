@@ -108,8 +108,8 @@ bool cli_tune_line_is_kept(const cli_tuning *t, double *angle_deg)
 enum { MOST_PARTS = 480, IN_A_PART = 8, LEAST_PARTS = 12, KEPT = 15 };
 
 typedef struct {
-    double kept_Nm[MOST_PARTS][KEPT]; /* the last ones */
-    size_t count[MOST_PARTS], parts, samples;
+    double kept_Nm[MOST_PARTS][KEPT]; /* from all along the recording, one in `stride` */
+    size_t count[MOST_PARTS], parts, samples, stride;
 } part_samples;
 
 static double torque_of(const cli_tuning *t, const hci_run *r, size_t n)
@@ -125,13 +125,96 @@ static bool goes(const hci_run *r, size_t n, int way)
     return !r->speed_rad_per_s || (way > 0 ? r->speed_rad_per_s[n] >= 0.0 : r->speed_rad_per_s[n] < 0.0);
 }
 
+static double turns_of(const hci_run *r, size_t n)
+{
+    return r->theta_m_rad[n] * (r->turn_known ? 1.0 : r->pole_pairs) / (2.0 * HCI_PI);
+}
+
+/* Behind the samples that follow sample `from` within one turn. */
+static size_t end_of_turn(const hci_run *r, size_t from)
+{
+    const double turn = floor(turns_of(r, from));
+    size_t end = from + 1;
+    while (end < r->count && fabs(floor(turns_of(r, end)) - turn) < 0.5)
+        ++end;
+    return end;
+}
+
+/* Of a turn, that its samples cover; and from how many such turns on the others are left out. */
+#define A_WHOLE 0.8
+enum { WHOLE_TURNS = 3 };
+
+static bool is_whole(const hci_run *r, size_t from, size_t end)
+{
+    return fabs(turns_of(r, end - 1) - turns_of(r, from)) > A_WHOLE;
+}
+
+static bool has_whole_turns(const hci_run *r)
+{
+    size_t whole = 0;
+    for (size_t from = 0, end; from < r->count; from = end) {
+        end = end_of_turn(r, from);
+        whole += is_whole(r, from, end);
+    }
+    return whole >= WHOLE_TURNS;
+}
+
+static void keep(part_samples *m, size_t part, double torque_Nm)
+{
+    const size_t k = m->count[part]++;
+    if (k % m->stride == 0) m->kept_Nm[part][k / m->stride % KEPT] = torque_Nm;
+}
+
+/* Samples of one turn. */
+typedef struct {
+    size_t from, end;
+    double mean_Nm, rms_Nm; /* the rms about the mean */
+    bool is_whole;
+} one_turn;
+
+static one_turn turn_of(const cli_tuning *t, const hci_run *r, size_t from)
+{
+    one_turn x = {.from = from, .end = end_of_turn(r, from)};
+    const double samples = (double)(x.end - from);
+    for (size_t n = from; n < x.end; ++n)
+        x.mean_Nm += torque_of(t, r, n) / samples;
+    for (size_t n = from; n < x.end; ++n)
+        x.rms_Nm += pow(torque_of(t, r, n) - x.mean_Nm, 2.0) / samples;
+    x.rms_Nm = sqrt(x.rms_Nm);
+    x.is_whole = is_whole(r, from, x.end);
+    return x;
+}
+
+/* Of the rms, by which the means of turns at one load differ at most. */
+#define ONE_LOAD 0.3
+
+static bool is_of_load(const one_turn *x, const one_turn *other)
+{
+    return x->is_whole && other->is_whole && fabs(x->mean_Nm - other->mean_Nm) < ONE_LOAD * x->rms_Nm;
+}
+
+static void add_turn(const cli_tuning *t, const hci_run *r, int way, const one_turn *x, part_samples *m)
+{
+    for (size_t n = x->from; n < x->end; ++n) {
+        const double turns = turns_of(r, n);
+        const size_t part = (size_t)((turns - floor(turns)) * (double)m->parts) % m->parts;
+        if (goes(r, n, way)) keep(m, part, torque_of(t, r, n) - x->mean_Nm);
+    }
+}
+
+/* Each whole turn less its mean, where the turn before or behind it has the same: the loads of a file with
+ * several tests, and the ramps between them, are no ripple. */
 static void add_all(const cli_tuning *t, const hci_run *r, int way, part_samples *m)
 {
-    const double turn_rad = 2.0 * HCI_PI / (r->turn_known ? 1.0 : r->pole_pairs);
-    for (size_t n = 0; n < r->count; ++n) {
-        const double turns = r->theta_m_rad[n] / turn_rad;
-        const size_t part = (size_t)((turns - floor(turns)) * (double)m->parts) % m->parts;
-        if (goes(r, n, way)) m->kept_Nm[part][m->count[part]++ % KEPT] = torque_of(t, r, n);
+    const bool by_turn = has_whole_turns(r);
+    one_turn before = {0}, x = turn_of(t, r, 0);
+    while (x.from < r->count) {
+        one_turn behind = {.from = r->count, .end = r->count};
+        if (x.end < r->count) behind = turn_of(t, r, x.end);
+        if (!by_turn) x.mean_Nm = 0.0;
+        if (!by_turn || is_of_load(&x, &before) || is_of_load(&x, &behind)) add_turn(t, r, way, &x, m);
+        before = x;
+        x = behind;
     }
 }
 
@@ -144,7 +227,7 @@ static int by_value(const void *a, const void *b)
 /* A few rows in which the shaft speeds up or turns round do not move it. */
 static double median_of(part_samples *m, size_t part)
 {
-    const size_t count = m->count[part] < KEPT ? m->count[part] : KEPT;
+    const size_t all = (m->count[part] + m->stride - 1) / m->stride, count = all < KEPT ? all : KEPT;
     qsort(m->kept_Nm[part], count, sizeof(double), by_value);
     return 0.5 * (m->kept_Nm[part][(count - 1) / 2] + m->kept_Nm[part][count / 2]);
 }
@@ -159,6 +242,7 @@ static double swing_of(const cli_tuning *t, const hci_run *r, int way)
         m.samples += goes(r, n, way);
     m.parts = m.samples / IN_A_PART < MOST_PARTS ? m.samples / IN_A_PART : MOST_PARTS;
     if (m.parts < LEAST_PARTS) return 0.0;
+    m.stride = 1 + m.samples / (m.parts * KEPT);
     add_all(t, r, way, &m);
     for (size_t k = 0; k < m.parts; ++k) {
         if (2 * m.count[k] < IN_A_PART) continue;

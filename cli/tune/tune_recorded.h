@@ -21,8 +21,8 @@ bool cli_tune_line_is_kept(const cli_tuning *tune, double *angle_deg);
 
 typedef struct {
     size_t run;             /* the recording that shows most; the number of recordings: none shows any */
-    double peak_to_peak_Nm; /* of its torque, or of what its i_q makes, in medians over narrow parts of the
-                             * turn, in the direction that shows more */
+    double peak_to_peak_Nm; /* of its torque, or of what its i_q makes, each whole turn less its mean, in
+                             * medians over narrow parts of the turn, in the direction that shows more */
     double current_A;       /* mean length of its phase currents, 0 of none */
 } cli_tune_ripple;
 

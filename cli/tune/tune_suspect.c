@@ -207,6 +207,16 @@ static void judge_jumps(cli_tuning *t, const hci_run *r)
 #define ELSEWHERE 0.5 /* of the way that angle and speed go, rms over parts of a recording */
 enum { PARTS = 16 };
 
+/* From sample k to the next one, by the angle and by the speed; nothing over a gap of the clock, in which the
+ * shaft went where nobody knows. */
+static void add_step(const hci_run *r, size_t k, double *turned, double *led)
+{
+    const double step_s = r->time_s[k + 1] - r->time_s[k];
+    if (r->gap_s > 0.0 && step_s > r->gap_s) return;
+    *turned += r->theta_m_rad[k + 1] - r->theta_m_rad[k];
+    *led += 0.5 * (r->speed_rad_per_s[k] + r->speed_rad_per_s[k + 1]) * step_s;
+}
+
 /* Its direction is left to check, which knows a speed without a sign. *ratio: out, of the ways. */
 static bool goes_elsewhere(const hci_run *r, double *ratio)
 {
@@ -216,14 +226,13 @@ static bool goes_elsewhere(const hci_run *r, double *ratio)
         return false;
     for (size_t part = 0; part < PARTS; ++part) {
         const size_t from = part * (r->count - 1) / PARTS, to = (part + 1) * (r->count - 1) / PARTS;
-        const double turned = fabs(r->theta_m_rad[to] - r->theta_m_rad[from]);
-        double led = 0.0;
+        double turned = 0.0, led = 0.0;
         for (size_t k = from; k < to; ++k)
-            led +=
-                0.5 * (r->speed_rad_per_s[k] + r->speed_rad_per_s[k + 1]) * (r->time_s[k + 1] - r->time_s[k]);
+            add_step(r, k, &turned, &led);
+        turned = fabs(turned), led = fabs(led);
         all_turned += turned;
-        all_led += fabs(led);
-        difference += (turned - fabs(led)) * (turned - fabs(led));
+        all_led += led;
+        difference += (turned - led) * (turned - led);
         way += fmax(turned * turned, led * led);
     }
     *ratio = all_led > 0.0 ? all_turned / all_led : 0.0;

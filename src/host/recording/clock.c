@@ -35,15 +35,15 @@ typedef struct {
 } mean_steps;
 
 /* Without gaps and steps back. 0 where nothing steps forward. */
-static mean_steps mean_steps_of(const hci_stamps *s)
+static mean_steps mean_steps_of(const double *time_s, size_t n)
 {
     mean_steps mean = {INFINITY, 0.0};
     double before;
     do {
         double sum = 0.0, count = 0.0, still = 0.0;
         before = mean.stamp_s;
-        for (size_t k = 1; k < s->n; ++k) {
-            const double step = s->time_s[k] - s->time_s[k - 1];
+        for (size_t k = 1; k < n; ++k) {
+            const double step = time_s[k] - time_s[k - 1];
             if (step < 0.0 || step > GAP * before) continue;
             sum += step;
             count += step > 0.0;
@@ -53,6 +53,11 @@ static mean_steps mean_steps_of(const hci_stamps *s)
         mean.sample_s = count > 0.0 ? sum / (count + still) : 0.0;
     } while (mean.stamp_s < before && mean.stamp_s > 0.0);
     return mean;
+}
+
+double hci_clock_gap_s(const double *time_s, size_t n)
+{
+    return GAP * mean_steps_of(time_s, n).stamp_s;
 }
 
 static bool ascends(const double *time_s, size_t n)
@@ -178,7 +183,7 @@ static bool is_uniform(const hci_stamps *s, double quantum_s, double most_s, boo
 /* A uniform clock where the stamps are one rounded. */
 static bool make_uniform(const hci_stamps *s, hci_note *remark)
 {
-    const double stamp_s = mean_steps_of(s).stamp_s, most_s = GAP * stamp_s;
+    const double stamp_s = mean_steps_of(s->time_s, s->n).stamp_s, most_s = GAP * stamp_s;
     const double quantum_s = hci_quantum(s->time_s, s->n, LEAST_SHARE * stamp_s);
     double step_s = 0.0;
     if (!is_uniform(s, quantum_s, most_s, false, &step_s)) return false;
@@ -211,7 +216,7 @@ bool hci_clock_mend(hci_stamps stamps, hci_note *remark)
 {
     const hci_stamps *s = &stamps;
     if (ascends(s->time_s, s->n)) return true;
-    const mean_steps mean = mean_steps_of(s);
+    const mean_steps mean = mean_steps_of(s->time_s, s->n);
     const steps_back back = mean.stamp_s > 0.0 ? go_forward(s, mean) : (steps_back){0};
     if (!(mean.stamp_s > 0.0) || (back.pieces + back.wraps) * RESTARTS > s->n) {
         hci_note_add(remark, "the time does not go on: it is not used");

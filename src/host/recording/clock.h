@@ -24,6 +24,10 @@ typedef struct {
  * False: they say nothing (all equal, descending, or a step back for every 20 samples). O(n). */
 bool hci_clock_mend(hci_stamps stamps, hci_note *remark);
 
+/* Longer steps of stamps that ascend, s, are gaps, as between tests of one file: over a gap nothing tells how
+ * far the shaft went. O(n). */
+double hci_clock_gap_s(const double *time_s, size_t n);
+
 /* Whether stamps come early and late by turns, by a tenth of the time between samples or more, as where a bus
  * or a whole number of milliseconds makes them: what varies from sample to sample is then not told by them.
  * Before they are mended. work: n. O(n). */

@@ -85,6 +85,7 @@ static void drop_time(hci_run *run)
 {
     hci_memory_free(run->time_s);
     run->time_s = NULL;
+    run->gap_s = 0.0;
 }
 
 static hci_status read_time(reader *r)
@@ -98,6 +99,7 @@ static hci_status read_time(reader *r)
     run->rough_clock = hci_clock_is_rough(stamps_of(run), work);
     hci_memory_free(work);
     if (!hci_clock_mend(stamps_of(run), &run->remark)) drop_time(run);
+    if (run->time_s) run->gap_s = hci_clock_gap_s(run->time_s, run->count);
     return HCI_OK;
 }
 
@@ -162,7 +164,7 @@ static const char *why_slope(const hci_run *run, const double *slope)
     if (run->speed_rad_per_s == NULL) return SLOPE;
     if (hci_peak_to_peak(run->theta_m_rad, run->count) <= MOVED_RAD) return NULL;
     if (is_zero(run->speed_rad_per_s, run->count)) return SLOPE_OF_ZERO;
-    if (hci_speed_sign_changes(run->speed_rad_per_s, run->count) < HCI_SPEED_SIGN_CHANGES) return NULL;
+    if (hci_speed_sign_changes(run->speed_rad_per_s, run->count) == 0) return NULL;
     return slope == NULL || hci_speed_sign_is_noise(run, slope) ? SLOPE_OF_NOISE : NULL;
 }
 
@@ -183,6 +185,13 @@ static hci_status complete_speed(reader *r, hci_angle_path path)
         hci_memory_free(run->speed_rad_per_s);
         run->speed_rad_per_s = slope;
     } else {
+        const size_t mended = hci_speed_sign_mend(run, slope);
+        if (mended > 0)
+            hci_note_add(&run->remark,
+                         "in %zu row%s noise turns the sign of the recorded speed about: the slope of the "
+                         "angle is taken "
+                         "there",
+                         mended, mended == 1 ? "" : "s");
         hci_memory_free(slope);
     }
     return HCI_OK;

@@ -137,17 +137,38 @@ size_t hci_speed_sign_changes(const double *x, size_t count)
     return changes;
 }
 
-bool hci_speed_sign_is_noise(const hci_run *run, const double *slope)
+/* Rows in which a speed has the other sign than the slope of the angle; 0 where it does not go with the
+ * angle. */
+static size_t turned_about(const hci_run *run, const double *slope)
 {
     const double *speed = run->speed_rad_per_s;
-    double other = 0.0, along = 0.0;
+    size_t other = 0;
+    double along = 0.0;
     for (size_t k = 0; k < run->count; ++k) {
-        other += sign_of(speed[k]) * sign_of(slope[k]) < 0 ? 1.0 : 0.0;
+        other += sign_of(speed[k]) * sign_of(slope[k]) < 0;
         along += speed[k] * sign_of(slope[k]);
     }
-    return other >= OTHER * (double)run->count && along > 0.0 &&
-           hci_speed_sign_changes(speed, run->count) >=
+    return along > 0.0 ? other : 0;
+}
+
+bool hci_speed_sign_is_noise(const hci_run *run, const double *slope)
+{
+    const size_t other = turned_about(run, slope);
+    return other > 0 && (double)other >= OTHER * (double)run->count &&
+           hci_speed_sign_changes(run->speed_rad_per_s, run->count) >=
                HCI_SPEED_SIGN_CHANGES * (hci_speed_sign_changes(slope, run->count) + 1);
+}
+
+size_t hci_speed_sign_mend(hci_run *run, const double *slope)
+{
+    const size_t other = turned_about(run, slope);
+    const bool is_few = (double)other < OTHER * (double)run->count;
+    if (!is_few ||
+        hci_speed_sign_changes(run->speed_rad_per_s, run->count) <= hci_speed_sign_changes(slope, run->count))
+        return 0;
+    for (size_t k = 0; k < run->count; ++k)
+        if (sign_of(run->speed_rad_per_s[k]) * sign_of(slope[k]) < 0) run->speed_rad_per_s[k] = slope[k];
+    return other;
 }
 
 /* ---- of a shaft whose torque was measured ---- */

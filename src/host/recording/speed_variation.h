@@ -26,6 +26,12 @@ size_t hci_speed_sign_changes(const double *speed, size_t count);
  * it four times as often as the angle, and is that of the angle on the whole. O(samples). */
 bool hci_speed_sign_is_noise(const hci_run *run, const double *slope);
 
+/* Takes the slope of the angle in the few rows, less than one in a hundred, in which noise gives a recorded
+ * speed the other sign, as where the shaft starts and stops: friction that does not turn its sign in such
+ * rows passes for a zero of the torque sensor. Only where the speed changes its sign more often than the
+ * slope and goes with it on the whole. Returns how many rows. O(samples). */
+size_t hci_speed_sign_mend(hci_run *run, const double *slope);
+
 /* The slope of the speed at each sample of a run with time and speed; where the speed is itself a slope of
  * the angle, over a window that the noise of the angle asks for. rate_rad_per_s2: out, [count], count >= 2.
  * O(n). */

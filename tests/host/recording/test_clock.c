@@ -287,6 +287,17 @@ static void test_samples_turns_apart_stand_for_themselves(void)
     hci_run_release(&run);
 }
 
+/* Steps of 1 ms, some of 3 ms, and two pauses. */
+static void test_gaps(void)
+{
+    static double time_s[600];
+    for (int k = 1; k < 600; ++k)
+        time_s[k] = time_s[k - 1] + (k % 200 == 0 ? 7.0 : k % 50 == 0 ? 0.003 : 0.001);
+    const double gap_s = hci_clock_gap_s(time_s, 600);
+    TEST_ASSERT_TRUE(gap_s > 0.003 && gap_s < 7.0);
+    TEST_ASSERT_DOUBLE_WITHIN(0.0, 0.0, hci_clock_gap_s(time_s, 1));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -303,6 +314,7 @@ int main(void)
     RUN_TEST(test_an_angle_of_another_instant);
     RUN_TEST(test_a_run_with_a_coarse_clock_is_read);
     RUN_TEST(test_a_foreign_clock_is_left_out);
+    RUN_TEST(test_gaps);
     RUN_TEST(test_samples_turns_apart_stand_for_themselves);
     return UNITY_END();
 }

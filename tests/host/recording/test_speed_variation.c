@@ -124,11 +124,36 @@ static void test_stops_on_the_way(void)
     }
 }
 
+/* A shaft that starts and stops, with torques: five rows in which noise has the other sign than the angle. */
+static void test_noise_where_the_shaft_starts(void)
+{
+    enum { N = 1000 };
+    static double theta_m_rad[N], time_s[N], speed[N], slope[N];
+    hci_run shaft = {.time_s = time_s, .theta_m_rad = theta_m_rad, .speed_rad_per_s = speed, .count = N};
+    for (int k = 0; k < N; ++k) {
+        time_s[k] = 0.01 * k;
+        slope[k] = 0.1 + 10.0 * sin(HCI_PI * k / N);
+        theta_m_rad[k] = k > 0 ? theta_m_rad[k - 1] + 0.01 * slope[k] : 0.0;
+        speed[k] = slope[k] - (k < 10 && k % 2 ? 0.5 : 0.0);
+    }
+    TEST_ASSERT_EQUAL_UINT64(5, hci_speed_sign_mend(&shaft, slope));
+    TEST_ASSERT_DOUBLE_WITHIN(0.0, slope[3], speed[3]);
+    TEST_ASSERT_DOUBLE_WITHIN(0.0, slope[4], speed[4]);
+    TEST_ASSERT_EQUAL_UINT64(0, hci_speed_sign_mend(&shaft, slope));
+    for (int k = 0; k < N; ++k) /* where it turns round in both, a row earlier, it is no noise */
+        slope[k] = k < N / 2 ? 1.0 : -1.0, speed[k] = k <= N / 2 ? 1.0 : -1.0;
+    TEST_ASSERT_EQUAL_UINT64(0, hci_speed_sign_mend(&shaft, slope));
+    for (int k = 0; k < N; ++k) /* a speed without a sign */
+        slope[k] = -1.0, speed[k] = k == 5 ? -1.0 : 1.0;
+    TEST_ASSERT_EQUAL_UINT64(0, hci_speed_sign_mend(&shaft, slope));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_shaft_that_sticks_and_slips);
     RUN_TEST(test_stops_on_the_way);
+    RUN_TEST(test_noise_where_the_shaft_starts);
     RUN_TEST(test_noise);
     RUN_TEST(test_what_stays);
     return UNITY_END();

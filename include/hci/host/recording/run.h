@@ -35,6 +35,7 @@ typedef struct {
     size_t count;            /* samples */
     int pole_pairs;          /* by which it was read */
     double *time_s;          /* ascending; NULL: the samples have no order in time */
+    double gap_s;            /* longer steps of time_s are gaps, as between tests of one file; 0: no time */
     double *theta_m_rad;     /* mechanical, unwrapped */
     double *speed_rad_per_s; /* mechanical, signed; recorded, or the slope of the angle over time where it is
                               * not or stands at 0 while the angle moves; NULL: not known */

@@ -11,15 +11,19 @@
 /* A mean below this share of the rms is that of noise. */
 #define MOVING 0.3
 
+/* Whether sample k was taken next to the one before it: there is no other part of the file between them, and
+ * no gap of the clock, over which an angle goes on as it likes. */
 static bool follows(const check_samples *s, size_t k)
 {
-    return !s->follows || s->follows[k];
+    const bool is_gap = s->time && s->gap_s > 0.0 && s->time[k] - s->time[k - 1] > s->gap_s;
+    return !is_gap && (!s->follows || s->follows[k]);
 }
 
 /* Between samples that are further apart than half a turn whole turns are lost. */
-#define COARSE   0.4 /* of a turn, that the speed goes between some samples, and varies by */
-#define FOLLOWED 0.1 /* of a turn, rms, by which the angle then differs from the speed, but for whole turns  \
-                      */
+#define COARSE 0.4 /* of a turn, that the speed goes between some samples, and varies by */
+#define FOLLOWED                                                                                             \
+    0.1 /* of a turn, rms, by which the angle then differs from the speed, but for whole turns               \
+         */
 
 /* The steps of an angle within one turn whose whole turns the speed tells, as it is declared; false: it does
  * not, or does not have to. path: out, their sum. */

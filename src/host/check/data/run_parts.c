@@ -205,6 +205,7 @@ bool hci_check_part_take(const check_samples *s, const signed char *part, int wh
     for (size_t k = 0; k < s->count; ++k)
         g.size += part[k] == which;
     out->count = g.size;
+    out->gap_s = s->gap_s;
     g.next = out->memory = hci_memory_new(MOST_COLUMNS * g.size, sizeof *out->memory);
     out->follows = hci_memory_new(g.size, sizeof *out->follows);
     if (!g.next || !out->follows) return false;

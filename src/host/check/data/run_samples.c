@@ -76,6 +76,7 @@ static hci_status read_time(check_samples *s)
     const hci_status status = read_column(s, HCI_RUN_TIME, &s->time);
     const hci_stamps stamps = {s->columns.value[HCI_RUN_TIME], s->columns.row, s->count};
     if (!status && s->time && !hci_clock_mend(stamps, s->columns.remark)) s->time = NULL;
+    if (!status && s->time) s->gap_s = hci_clock_gap_s(s->time, s->count);
     return status;
 }
 

@@ -22,6 +22,7 @@ typedef struct {
     const double *torque;
     const double *const *phase, *const *volt; /* three columns each, as recorded */
     check_vector *current, *voltage;          /* of three phases */
+    double gap_s;                             /* longer steps of the time are gaps; 0: not told */
     bool *follows;  /* of each: the sample before it is the one before it in the file; NULL: all */
     double *memory; /* of a part of the samples (run_parts.h), as are the next two */
     const double *of_phase[3], *of_volt[3];

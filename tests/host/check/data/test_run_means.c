@@ -70,6 +70,21 @@ static void test_an_angle_too_coarse_to_unwrap(void)
     TEST_ASSERT_FALSE(fabs(run.angle_rate * DT_S * (N - 1) - path) < 0.1 * path);
 }
 
+/* An angle that goes on at 50 rad/s in a second that was not recorded, and stands where it likes behind it.
+ */
+static void test_rates_beside_a_gap(void)
+{
+    s.time = ramp(0, 3.0, DT_S, 0.0);
+    s.theta = ramp(1, 0.25, 0.5, 0.0);
+    s.speed = ramp(2, 50.0, 0.0, 0.0);
+    for (size_t k = N / 2; k < N; ++k)
+        column[0][k] += 60.0, column[1][k] -= 3.0;
+    s.gap_s = 20.0 * DT_S;
+    hci_check_run_means(&s, &run);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.5 / DT_S, run.angle_rate);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 50.0, run.speed_over_time);
+}
+
 /* An angle that is wrapped at 7 goes on at 0.5 a sample; the steps at its wraps are left out. */
 static void test_rates_of_an_angle(void)
 {
@@ -352,6 +367,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_an_angle_too_coarse_to_unwrap);
     RUN_TEST(test_rates_of_an_angle);
+    RUN_TEST(test_rates_beside_a_gap);
     RUN_TEST(test_rates_that_are_not_known);
     RUN_TEST(test_ratio_of_two_angles);
     RUN_TEST(test_speed);

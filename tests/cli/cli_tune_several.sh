@@ -1,0 +1,49 @@
+#!/bin/sh
+# What tune says of one file with several tests in it.
+#   cli_tune_several.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+. "$1/tests/support/common.sh"
+cd "$work" || exit 1
+
+# NAME RPM RAMP GAP MOVED ROWS: without current and at three loads, each at its own speed ("100 100 100 100"), 6 s long, with a ramp of RAMP s before
+# and behind it and GAP s that were not logged, in which the shaft is turned to another place, and the index of the encoder by MOVED rad. Four pole
+# pairs, a torque sensor before Coulomb friction of 0.05 N·m; ROWS a second.
+tests() {
+    awk -v rpm="$2" -v ramp="$3" -v gap="$4" -v moved="$5" -v rate="$6" 'function noise() { return rand() + rand() + rand() + rand() - 2 }
+    BEGIN { srand(5); split(rpm, n_of, " "); turn = 6.283185307179586; x = 0.3; last = 6 + 2 * ramp; print "time_s,theta_m_rad,speed_rpm,id_A,iq_A,torque_Nm"
+        for (part = 1; part <= 4; ++part) {
+            for (k = 0; k < last * rate; ++k) { t = k / rate; share = t < ramp ? t / ramp : t > last - ramp ? (last - t) / ramp : 1
+                w = share * n_of[part] * turn / 60; x += w / rate; q = 2 * (part - 1) * share; e = 4 * x + moved * part * part; way = w > 0 ? 1 : w < 0 ? -1 : 0
+                printf "%.5f,%.6f,%.4f,%.4f,%.4f,%.5f\n", at + t, x, w * 60 / turn + 0.5 * noise(), 0.02 * noise(), q + 0.02 * noise(),
+                    q * (0.45 + 0.0105 * sin(6 * e + 2.2)) + 0.06 * sin(6 * e + 0.5) + 0.03 * sin(12 * e + 1.2) - 0.05 * way - 0.0008 * w + 0.02 * noise() }
+            at += last + gap; x += gap > 0 ? 0.9 + part : 0 } }' >"$1.csv"
+}
+# EXIT NAME
+tuned() {
+    run "$1" tune "$2.csv" --pole-pairs 4 --kv 18.38 -o "$2"
+}
+
+# the angle is not followed over what was not logged: none of its columns is another's
+tests pieces '100 100 100 100' 0 30 0 500
+run 0 init motor --pole-pairs 4 --kv 18.38 -o motor
+run 0 check motor pieces.csv
+says '^consistent: '
+run 1 tune pieces.csv --pole-pairs 4 --kv 18.38 -o pieces
+says '^tuned, with something left open: A ripple of 0.1[0-9]* N·m from peak to peak falls to at most 0.0'
+
+# rows in which noise turns the sign of the speed, as where the shaft starts, tell no zero of the torque sensor
+tests stops '100 100 100 100' 0.5 30 0 500
+tuned 0 stops
+says 'friction .added.: coulomb = 0.0[45]' 'rows noise turns the sign of the recorded speed about'
+check "a zero of the torque sensor" [ "$(grep -c 'errors of the torque sensor (added)' "$work/stdout")" -eq 0 ]
+
+# several speeds in one file are several speeds
+tests speeds '100 300 50 150' 0.5 0 0 500
+tuned 0 speeds
+check "one speed, of a file with four" [ "$(grep -c 'one speed' "$work/stdout")" -eq 0 ]
+
+# loads are no ripple, where the model does not explain the file
+tests moved '100 100 100 100' 0.5 30 0.35 2000
+tuned 1 moved
+says '^tuned.*; the recording moved.csv shows 0.[12][0-9]* N·m from peak to peak'
+
+finish
