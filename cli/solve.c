@@ -36,6 +36,7 @@ enum {
     CLI_LIMIT_KEYS,
     SPEED,
     DRIVE,
+    BANDWIDTH,
     MINIMISE,
     TEMPERATURE,
     ORDER_BASE,
@@ -84,6 +85,11 @@ static const cli_option OPTIONS[] = {
     [DRIVE] = {"drive", 0, CLI_FILE, "FILE",
                .help =
                    "drive.csv: leaves out or reduces orders that its current loop cannot follow at --speed"},
+    [BANDWIDTH] = {"bandwidth", 0, CLI_NUMBER, "HZ",
+                   .help =
+                       "of the current loop: what it adds to the ripple, and up to which speed little; with "
+                       "--speed the bound has it",
+                   .low = 1e-3, .high = 1e6},
     [MINIMISE] = {"minimise", 0, CLI_CHOICE, "WHAT",
                   .help = "ripple that is made smallest where it cannot be as wanted:",
                   .choices = cli_minimise_choices},
@@ -156,7 +162,7 @@ static hci_status check_together(const cli_arguments *a, hci_method method, hci_
 /* A speed alone says nothing without the voltage that there is. */
 static hci_status check_link(const cli_arguments *a, const hci_machine_data *m, hci_note *note)
 {
-    if (!a->given[SPEED] || a->given[LIMIT_VOLTAGE] || a->given[DRIVE]) return HCI_OK;
+    if (!a->given[SPEED] || a->given[LIMIT_VOLTAGE] || a->given[DRIVE] || a->given[BANDWIDTH]) return HCI_OK;
     if (!a->given[IGNORE_RATINGS] && m->dc_link_voltage_V > 0.0) return HCI_OK;
     return hci_note_set(note, HCI_ERROR_ARGUMENT,
                         "solve: --limit-voltage and --speed go together, unless machine.csv has a "
@@ -191,6 +197,7 @@ static hci_status read_options(const cli_arguments *a, inputs *in, hci_note *not
     o->loss_allowance = cli_number_or(a, MAX_LOSS, 0.0);
     o->at_speed = a->given[SPEED];
     o->speed_rad_per_s = cli_number_or(a, SPEED, 0.0) * HCI_PI / 30.0;
+    o->loop_bandwidth_Hz = cli_number_or(a, BANDWIDTH, 0.0);
     o->at_temperature = a->given[TEMPERATURE];
     o->temperature_C = cli_number_or(a, TEMPERATURE, 0.0);
     status = check_together(a, o->method, note);

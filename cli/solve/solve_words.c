@@ -180,6 +180,20 @@ static bool is_new_id(const hci_expected_ripple *e)
            largest_A(e->id_A) > most_A;
 }
 
+/* What of it holds for currents that flow as they are. */
+static void show_loop(const hci_loop_reach *l)
+{
+    char words[512];
+    hci_loop_reach_words(l, words, sizeof words);
+    if (!words[0]) return;
+    cli_say("  current loop\n");
+    cli_say_paragraph(4, words);
+    if (l->leaves_out_back_emf)
+        cli_say_paragraph(4,
+                          "What harmonics of the back-EMF drive through the loop comes on top: machine.csv "
+                          "has no inductance.");
+}
+
 static void show_expected(const hci_solution *s)
 {
     char words[1024];
@@ -192,6 +206,7 @@ static void show_expected(const hci_solution *s)
     if (is_new_id(&s->expected))
         cli_say_paragraph(4,
                           "No recording has an i_d: --method pointwise --current-angle 0 does without it.");
+    show_loop(&s->loop);
     if (!s->corrections[0]) return;
     cli_say("  sensors\n");
     cli_say_paragraph(4,

@@ -306,6 +306,16 @@ static void append_of_excess(cli_tuning *t)
     }
 }
 
+/* All before is of currents that flow as the table has them. */
+static void append_of_loop(cli_tuning *t)
+{
+    char words[512];
+    if (!t->is_solved || t->size == CLI_TUNE_EXCESS || cli_tune_is_of_no_use(t) || cli_tune_is_never_seen(t))
+        return;
+    hci_loop_reach_words(&t->solution.loop, words, sizeof words);
+    if (words[0]) append(t, "; that is of currents that flow as in the table: %s", words);
+}
+
 /* What the table needs of the drive, and does not do. */
 static void append_of_table(cli_tuning *t)
 {
@@ -645,6 +655,7 @@ void cli_tune_set_heading(cli_tuning *t)
         say_table(t);
     else
         say_why_not_solved(t);
+    append_of_loop(t);
     append_of_sheet(t);
     append_of_table(t);
     append_of_torque(t);

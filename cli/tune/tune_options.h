@@ -25,6 +25,8 @@ enum {
     TUNE_DC_LINK,
     TUNE_RUNS,
     TUNE_TORQUE,
+    TUNE_BANDWIDTH,
+    TUNE_SPEED,
     TUNE_NAME,
     TUNE_OUT,
     TUNE_HOLDING,

@@ -72,6 +72,11 @@ static hci_status check_words(const cli_arguments *a, hci_note *note)
     if (a->given[TUNE_RUNS] && a->words != 1)
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
                             "tune: found %zu words, expected one machine beside --runs LIST", a->words);
+    if (a->given[TUNE_SPEED] && !a->given[TUNE_BANDWIDTH])
+        return hci_note_set(
+            note, HCI_ERROR_ARGUMENT,
+            "tune: --speed is the speed at which a current loop is asked for; add --bandwidth "
+            "HZ, or leave it out");
     for (size_t k = 0; k < a->words; ++k)
         if (strcmp(a->word[k], "-") == 0)
             return hci_note_set(note, HCI_ERROR_ARGUMENT,

@@ -216,6 +216,18 @@ static void limit_heat(cli_tuning *t, hci_solve_options *o, char text[32], cli_t
                    "within %s A rms in each phase, the heat of a sine of the rated current", text);
 }
 
+/* The current loop that is to make the currents. */
+static void take_loop(const cli_tuning *t, hci_solve_options *o, cli_tune_line *c)
+{
+    const cli_arguments *a = t->arguments;
+    if (!a->given[TUNE_BANDWIDTH]) return;
+    o->loop_bandwidth_Hz = a->number[TUNE_BANDWIDTH];
+    cli_tune_add_option(c, "bandwidth", a->value[TUNE_BANDWIDTH]);
+    if (!a->given[TUNE_SPEED]) return;
+    o->speed_rad_per_s = a->number[TUNE_SPEED] * HCI_PI / 30.0;
+    cli_tune_add_option(c, "speed", a->value[TUNE_SPEED]);
+}
+
 static size_t with_current(const hci_effects *list)
 {
     size_t count = 0;
@@ -338,6 +350,7 @@ hci_status cli_tune_solve(cli_tuning *t, hci_note *note)
                                  .effects = &t->found.list,
                                  .uncertainty = &t->uncertainty,
                                  .progress = cli_progress};
+    take_loop(t, &options, &c);
     keep_angle(t, &options, angle, &c);
     limit_heat(t, &options, rms, &c);
     note_target(t);

@@ -168,6 +168,15 @@ nothing_on_stdout
 nothing_on_stderr
 check "colours or a progress bar in a file" eval "! grep -rq \"\$(printf '\\033')\" '$work/auto'"
 
+# ---- what a current loop makes of the currents: ten times as fast, ten times the speed
+
+run 0 solve data/machine_a --target $target --auto --bandwidth 100 -o "$work/auto100"
+says 'a current loop of 100 Hz adds no more than 0.38 N·m, a tenth of'
+run 0 solve data/machine_a --target $target --auto --bandwidth 1000 --speed 160 -o "$work/auto1000"
+says 'at 160 rpm a current loop of 1000 Hz adds 0.3[0-9]* N·m from peak to peak'
+run 2 tune nothing.csv --pole-pairs 2 --kv 39 --speed 300 -o "$work/never"
+says '--speed is the speed at which a current loop is asked for; add --bandwidth HZ'
+
 # ---- without --out nothing is written; a relative --out is below the working folder
 
 mkdir "$work/empty" && cd "$work/empty" || exit 1

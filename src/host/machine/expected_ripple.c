@@ -288,6 +288,7 @@ static hci_expected_ripple nothing(hci_ripple_state state)
                                  NAN,
                                  NAN,
                                  NAN,
+                                 0.0,
                                  0.0};
 }
 
@@ -396,15 +397,26 @@ static void fill_unbelievable(const hci_ripple_path *path, hci_expected_ripple *
 /* The largest amplitude of one order in a wave of that size, peak to peak: of a square wave. */
 #define OF_SQUARE (2.0 / HCI_PI)
 
-void hci_expected_ripple_add_table(hci_expected_ripple *e, double table_Nm, double mean_Nm)
+static void add(hci_expected_ripple *e, double more_Nm, double mean_Nm)
 {
-    const double percent = 100.0 * table_Nm / fabs(mean_Nm);
-    e->table_peak_to_peak_Nm += table_Nm;
-    e->peak_to_peak_Nm += table_Nm;
-    e->error_peak_to_peak_Nm += table_Nm;
-    e->worst_order_Nm += OF_SQUARE * table_Nm;
+    const double percent = 100.0 * more_Nm / fabs(mean_Nm);
+    e->peak_to_peak_Nm += more_Nm;
+    e->error_peak_to_peak_Nm += more_Nm;
+    e->worst_order_Nm += OF_SQUARE * more_Nm;
     e->T_ripple_percent += percent; /* NAN where there is no mean */
     e->middle_percent += percent;
+}
+
+void hci_expected_ripple_add_table(hci_expected_ripple *e, double table_Nm, double mean_Nm)
+{
+    e->table_peak_to_peak_Nm += table_Nm;
+    add(e, table_Nm, mean_Nm);
+}
+
+void hci_expected_ripple_add_loop(hci_expected_ripple *e, double loop_Nm, double mean_Nm)
+{
+    e->loop_peak_to_peak_Nm += loop_Nm;
+    add(e, loop_Nm, mean_Nm);
 }
 
 bool hci_expected_ripple_is_doubtful(const hci_expected_ripple *e)

@@ -57,6 +57,9 @@ static void say_ripple(const hci_words *w, const hci_expected_ripple *e)
     if (e->table_peak_to_peak_Nm > 0.0)
         hci_words_say(w, " Of that the table, to which the currents were cut, makes %s N·m.",
                       number(e->table_peak_to_peak_Nm, true, Nm));
+    if (e->loop_peak_to_peak_Nm > 0.0)
+        hci_words_say(w, " Of that the current loop makes %s N·m.",
+                      number(e->loop_peak_to_peak_Nm, true, Nm));
     if (isfinite(e->worst_order_Nm))
         hci_words_say(w, " Worst order %.4g, at most %s N·m off.", e->worst_order,
                       number(e->worst_order_Nm, true, Nm));

@@ -184,6 +184,22 @@ static void put_limits(hci_json *json, const hci_solution *s)
     hci_json_close(json);
 }
 
+void hci_summary_loop(hci_json *json, const hci_loop_reach *l)
+{
+    const bool has_speed = isfinite(l->added_Nm);
+    hci_json_object(json, "current_loop");
+    hci_json_number(json, "adds_Nm", l->allowed_Nm);
+    hci_json_number(json, "rpm_per_Hz", l->rpm_per_Hz);
+    hci_json_number(json, "read_ahead_rpm_per_Hz", l->lead_rpm_per_Hz);
+    hci_json_bool(json, "at_any_speed", isinf(l->rpm_per_Hz));
+    hci_json_number(json, "bandwidth_Hz", l->bandwidth_Hz > 0.0 ? l->bandwidth_Hz : (double)NAN);
+    hci_json_number(json, "speed_rpm", has_speed ? l->speed_rpm : (double)NAN);
+    hci_json_number(json, "adds_at_speed_Nm", l->added_Nm);
+    hci_json_number(json, "read_ahead_adds_at_speed_Nm", l->lead_added_Nm);
+    hci_json_bool(json, "leaves_out_back_emf", l->leaves_out_back_emf);
+    hci_json_close(json);
+}
+
 char *hci_solution_json(const hci_solution *solution, hci_status verdict)
 {
     hci_json json;
@@ -199,5 +215,6 @@ char *hci_solution_json(const hci_solution *solution, hci_status verdict)
     put_current(&json, solution);
     put_limits(&json, solution);
     hci_summary_expected(&json, &solution->expected);
+    hci_summary_loop(&json, &solution->loop);
     return hci_json_end(&json);
 }

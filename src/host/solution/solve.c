@@ -14,6 +14,7 @@
 #include "host/solution/hold.h"
 #include "host/solution/limited.h"
 #include "host/solution/limits.h"
+#include "host/solution/loop_reach.h"
 #include "host/solve/evaluate_solution.h"
 #include "host/solve/pointwise.h"
 #include "host/solve/torque_spectrum.h"
@@ -321,7 +322,8 @@ static hci_status solve_task(const hci_machine_data *machine, const hci_solve_op
     if (!status)
         status = hci_solution_evaluate(t, &w->answer.set, o->set ? o->compare : HCI_COMPARE_ALL, s, note);
     if (!status && o->method != HCI_METHOD_POINTWISE) status = fill_system(t, &w->answer, s, note);
-    return status ? status : hci_solution_expect(&machine->model, o, s, note);
+    if (!status) status = hci_solution_expect(&machine->model, o, s, note);
+    return status ? status : hci_loop_reach_find(t, machine, o, s, note);
 }
 
 hci_status hci_solve(const hci_machine_data *machine, const hci_solve_options *options,

@@ -47,11 +47,16 @@ typedef struct {
     double mean_error_Nm;      /* size of the mean torque less that; NAN with it */
     double table_peak_to_peak_Nm; /* the part of peak_to_peak_Nm that the cut of a table adds; 0: currents as
                                    * they were solved */
+    double loop_peak_to_peak_Nm;  /* the part that a current loop adds; 0: currents that flow as they are */
 } hci_expected_ripple;
 
 /* The same with a table that the currents were cut to. table_Nm: peak to peak, of the torque with the table
  * less that of the currents; mean_Nm: of the torque. */
 void hci_expected_ripple_add_table(hci_expected_ripple *expected, double table_Nm, double mean_Nm);
+
+/* The same with a current loop. loop_Nm: peak to peak, of the torque through the loop less that of currents
+ * that flow as they are. */
+void hci_expected_ripple_add_loop(hci_expected_ripple *expected, double loop_Nm, double mean_Nm);
 
 /* Whether what holds for the model may not hold for the machine at all: the diagnosis has not explained its
  * recordings, or a value of it is not believable. */

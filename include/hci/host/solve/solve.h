@@ -12,6 +12,7 @@
 #include "hci/host/machine/corrections.h"
 #include "hci/host/machine/expected_ripple.h"
 #include "hci/host/machine/machine.h"
+#include "hci/host/solve/loop_reach.h"
 #include "hci/machine/strategy.h"
 
 #ifdef __cplusplus
@@ -106,12 +107,14 @@ typedef struct {
     double sample_rad;
     const hci_effects *effects; /* beside the declared machine, or NULL; needed where it has_effects */
     const hci_uncertainty *uncertainty; /* what recordings of the machine leave open, or NULL */
-    bool at_temperature;    /* magnets are at temperature_C, else at the reference of their effect */
-    double temperature_C;   /* of the magnets */
-    hci_progress *progress; /* may be NULL */
-    void *progress_context; /* first argument of progress */
-    hci_stop *stop;         /* may be NULL; then HCI_ERROR_STOPPED, and nothing is kept */
-    void *stop_context;     /* first argument of stop */
+    double loop_bandwidth_Hz; /* of the current loop that is to make the currents, at speed_rad_per_s where
+                               * that is not 0; 0: none is told */
+    bool at_temperature;      /* magnets are at temperature_C, else at the reference of their effect */
+    double temperature_C;     /* of the magnets */
+    hci_progress *progress;   /* may be NULL */
+    void *progress_context;   /* first argument of progress */
+    hci_stop *stop;           /* may be NULL; then HCI_ERROR_STOPPED, and nothing is kept */
+    void *stop_context;       /* first argument of stop */
 } hci_solve_options;
 
 /* Why an order is as it is. */
@@ -261,7 +264,9 @@ typedef struct {
     hci_minimise minimised;           /* which ripple was made smallest within limits */
     double minimised_Nm;              /* how small it is; NAN where no limit acts */
 
-    hci_expected_ripple expected; /* of the real machine, where recordings tell of it */
+    hci_expected_ripple expected; /* of the real machine, where recordings tell of it; with what the loop adds
+                                   * where a bandwidth and a speed were given */
+    hci_loop_reach loop;          /* what a current loop makes of the currents */
 
     bool with_effects;            /* torque and voltage are those of the machine with its effects */
     hci_machine_identity machine; /* they are of */

@@ -218,6 +218,8 @@ void hci_page_before_and_after(const hci_solution_page *p)
         snprintf(expected, sizeof expected,
                  "Ripple not known: the recordings bound it by no less than the torque itself.");
     hci_html_say(p->out, "quiet", "On the real machine: %s", expected);
+    hci_loop_reach_words(&s->loop, expected, sizeof expected);
+    if (expected[0]) hci_html_say(p->out, "quiet", "In a drive: %s.", expected);
 }
 
 void hci_page_solution_verdict(const hci_solution_page *p, hci_status verdict, const char *machine)

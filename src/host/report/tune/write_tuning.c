@@ -131,6 +131,7 @@ static void put_solution(hci_json *json, const hci_tuning *t)
     hci_json_number(json, "table_peak_to_peak_Nm", t->table_Nm > 0.0 ? t->table_Nm : (double)NAN);
     hci_json_close(json);
     hci_summary_expected(json, &s->expected);
+    hci_summary_loop(json, &s->loop);
 }
 
 char *hci_tuning_json(const hci_tuning *t)
