@@ -5,7 +5,6 @@
  * with k_p = ω_b L and k_i = ω_b R. Without a bandwidth R is left out, and both depend on x = ω/ω_b alone. */
 #include "host/solution/loop_reach.h"
 
-#include <complex.h>
 #include <math.h>
 #include <string.h>
 
@@ -17,8 +16,6 @@
 #define LEAST_X    1e-4
 #define MOST_X     10.0 /* nothing of a harmonic flows any more */
 #define MOST_STEPS 24
-
-static const double complex J = (double complex)I;
 
 /* The currents of a solution as a loop makes them. wave: of work, [current + back-EMF]. */
 typedef struct {
@@ -35,14 +32,24 @@ static double order_in_rotor(const hci_wave *w)
     return w->order - w->sequence;
 }
 
-static hci_wave wave_of(const hci_wave *like, double complex phasor)
+/* A wave times a + jb. */
+static hci_wave times(const hci_wave *w, double a, double b)
 {
-    return (hci_wave){like->order, like->sequence, creal(phasor), cimag(phasor)};
+    return (hci_wave){w->order, w->sequence, a * w->sine - b * w->cosine, b * w->sine + a * w->cosine};
 }
 
-static double complex phasor_of(const hci_wave *w)
+/* What flows of a current: (e^jt or 1)/(1 + jt). */
+static hci_wave followed_of(const hci_wave *w, double t, bool has_lead)
 {
-    return w->sine + J * w->cosine;
+    const double ahead = has_lead ? t : 0.0, share = 1.0 / (1.0 + t * t);
+    return times(w, share * (cos(ahead) + t * sin(ahead)), share * (sin(ahead) - t * cos(ahead)));
+}
+
+/* What a back-EMF drives: -scale jt/((corner + jt)(1 + jt)). */
+static hci_wave driven_of(const hci_wave *e, double t, double scale, double corner)
+{
+    const double a = corner - t * t, b = t * (1.0 + corner), share = -scale * t / (a * a + b * b);
+    return times(e, share * b, share * a);
 }
 
 static bool is_harmonic(const hci_wave *w)
@@ -55,17 +62,12 @@ static void fill(followed *f, double x, bool has_lead)
     const hci_currents *c = &f->s->current;
     const hci_machine *m = f->task->machine;
     f->count = 0;
-    for (size_t k = 0; k < c->count; ++k) {
-        const double complex turn = J * order_in_rotor(&c->wave[k]) * x;
-        const double complex ahead = has_lead ? cexp(turn) : 1.0;
-        f->wave[f->count++] = wave_of(&c->wave[k], phasor_of(&c->wave[k]) * ahead / (1.0 + turn));
-    }
+    for (size_t k = 0; k < c->count; ++k)
+        f->wave[f->count++] = followed_of(&c->wave[k], order_in_rotor(&c->wave[k]) * x, has_lead);
     for (size_t k = 0; k < m->back_emf_count && f->per_H > 0.0; ++k) {
         const hci_wave *e = &m->back_emf[k];
-        const double complex turn = J * order_in_rotor(e) * x;
         if (is_harmonic(e))
-            f->wave[f->count++] =
-                wave_of(e, -x * f->per_H * phasor_of(e) * turn / ((f->corner + turn) * (1.0 + turn)));
+            f->wave[f->count++] = driven_of(e, order_in_rotor(e) * x, x * f->per_H, f->corner);
     }
 }
 
