@@ -282,7 +282,7 @@ def h_order(r, m, b, z, k=None, loaded=False):
     n, a, g = k / m.p, m.rated * r.uniform(.02, .04) * z, r.uniform(-PI, PI)
     m.air.append(lambda s: a * np.sin(k * s.thm + g) * (s.iq / m.amps if loaded else 1))
     pre, u = ("iq_", m.amps) if loaded else ("", 1)
-    return {"mechanical_order": {f"{pre}sine_{n:g}": a * np.cos(g) / u, f"{pre}cosine_{n:g}": a * np.sin(g) / u}}
+    return {"cogging" if k % m.p == 0 and not loaded else "mechanical_order": {f"{pre}sine_{n:g}": a * np.cos(g) / u, f"{pre}cosine_{n:g}": a * np.sin(g) / u}}
 
 
 def h_magnet(r, m, b, z):

@@ -1,0 +1,23 @@
+from bench import *
+A=['--pole-pairs','5','--torque-constant','0.368','--slots','12','--rated-current','3.7','--torque','0.7']
+S=lambda **k:Plant('servo',**{'fang':.02,**k})
+B={}
+B['b01']=lambda i:circle(i,S(fang=.05),loads(S(fang=.05),hz=2000,turns=12),A,note='servo, dyno, idle + 3 loads, clean, friction varies 5 % in a turn')
+B['b01b']=lambda i:circle(i,S(),loads(S()),A,note='servo clean, friction varies 2 %')
+B['b02']=lambda i:circle(i,S(tsl=.005),loads(S(tsl=.005),r=120),A,note='torque sensor lag 5 ms, 120 rpm',second='dyno')
+B['b03']=lambda i:circle(i,S(),loads(S(),hunt=.08,fhunt=2.3,hunt1=.03),A,note='load machine hunts 8 %')
+B['b04']=lambda i:circle(i,S(),loads(S(),tdrift=.08),A,note='torque zero drifts 80 mNm')
+B['b05']=lambda i:circle(i,S(tgain=1.04),loads(S(tgain=1.04)),A,note='torque sensor reads 4 % too much')
+B['b06']=lambda i:circle(i,S(again_a=1.03,aoffa=.03),loads(S(again_a=1.03,aoffa=.03)),A,note='current sensor a gain 3 %, offset 30 mA (drive uses it too)')
+B['b07']=lambda i:circle(i,S(offe=.12,zlog=.12/5),loads(S(offe=.12,zlog=.12/5)),A,note='encoder zero off 0.12 rad el')
+B['b08']=lambda i:circle(i,S(),loads(S(),levels=(0,)),A,note='idle only')
+B['b09']=lambda i:circle(i,S(),loads(S(),levels=(.6,)),A,note='one load only')
+B['b10']=lambda i:circle(i,S(),loads(S(),Trise=60,Ttau=8),A,note='warms 60 K within each run',play=S())
+B['b11']=lambda i:circle(i,S(),loads(S(),tgain=-1),A,note='torque sensor sign reversed')
+B['b12']=lambda i:circle(i,S(ecc=.012),loads(S(ecc=.012)),A,play=S(ecc=.0002),note='encoder eccentric 0.012 rad mech (0.06 el); played with the correction that is asked for')
+B['b13']=lambda i:circle(i,S(),loads(S(),fmt='excel'),A,note='German Excel export',fmt2='excel')
+B['b14']=lambda i:circle(i,S(),loads(S(),fmt='lvm'),A,note='LabVIEW lvm',fmt2='lvm')
+B['b15']=lambda i:circle(i,S(),loads(S(),levels=(0,.2,.4)),[*A[:-1],'1.3'],note='loads up to 40 %, table for 95 %')
+B['b16']=lambda i:circle(i,S(),loads(S(),fmt='plcrms'),A,note='PLC trend, current A rms, torque sensor',)
+B['b17']=lambda i:circle(i,S(),loads(S(),levels=(0,.5,.5,1.),ids=(0,-.5,0,.4)),A,note='loads with i_d')
+if __name__=='__main__': main(B)
