@@ -255,6 +255,31 @@ static void append_of_gain(cli_tuning *t)
             " (the offsets are those of the logs: a drive that nulls its sensors at each start has others)");
 }
 
+/* How early a channel is read that a drive can correct, s; 0: none is. */
+static double early_s(const cli_tuning *t)
+{
+    const hci_effects *list = &t->diagnosis.effects.list;
+    for (size_t k = 0; k < list->count; ++k) {
+        const hci_effect *e = &list->effect[k];
+        for (size_t j = 0; e->type->late && j < e->count; ++j)
+            if (e->type->correction[e->term[j].parameter].before && e->term[j].value < 0.0)
+                return -e->term[j].value;
+    }
+    return 0.0;
+}
+
+/* Nothing is read before it is true. */
+static void append_of_early(cli_tuning *t)
+{
+    const double early = early_s(t);
+    if (early > 0.0)
+        append(t,
+               " (no channel is read %.2g s before it is true, unless the drive looks ahead: a torque sensor "
+               "that is late by as much shows nearly the same, and nothing is to be corrected then, which "
+               "logs at other speeds and loads tell)",
+               early);
+}
+
 static void append_of_zero(cli_tuning *t)
 {
     if (fabs(t->open_turn_deg) > 0.0 && t->is_solved)
@@ -313,7 +338,7 @@ static void append_of_loop(cli_tuning *t)
     if (!t->is_solved || t->size == CLI_TUNE_EXCESS || cli_tune_is_of_no_use(t) || cli_tune_is_never_seen(t))
         return;
     hci_loop_reach_words(&t->solution.loop, words, sizeof words);
-    if (words[0]) append(t, "; that is of currents that flow as in the table: %s", words);
+    if (words[0]) append(t, "; all that holds for currents that flow as in the table: %s", words);
 }
 
 /* What the table needs of the drive, and does not do. */
@@ -325,7 +350,10 @@ static void append_of_table(cli_tuning *t)
             t,
             "; this holds once the sensors of the drive, where they are those of the logs, are corrected: %s",
             t->solution.corrections);
-    if (t->is_solved && *t->solution.corrections) append_of_gain(t);
+    if (t->is_solved && *t->solution.corrections) {
+        append_of_gain(t);
+        append_of_early(t);
+    }
     append_of_zero(t);
     append_of_doubt(t);
     append_of_miss(t);

@@ -64,19 +64,12 @@ static bool is_folder(const char *path)
     return stat(path, &there) == 0 && S_ISDIR(there.st_mode);
 }
 
-/* What can be refused before any work. */
-static hci_status check_words(const cli_arguments *a, hci_note *note)
+/* The logs, or the machine beside a list. */
+static hci_status check_logs(const cli_arguments *a, hci_note *note)
 {
-    if (!a->value[TUNE_OUT] || !*a->value[TUNE_OUT])
-        return hci_note_set(note, HCI_ERROR_ARGUMENT, "tune: add --out FOLDER, a new folder for the results");
     if (a->given[TUNE_RUNS] && a->words != 1)
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
                             "tune: found %zu words, expected one machine beside --runs LIST", a->words);
-    if (a->given[TUNE_SPEED] && !a->given[TUNE_BANDWIDTH])
-        return hci_note_set(
-            note, HCI_ERROR_ARGUMENT,
-            "tune: --speed is the speed at which a current loop is asked for; add --bandwidth "
-            "HZ, or leave it out");
     for (size_t k = 0; k < a->words; ++k)
         if (strcmp(a->word[k], "-") == 0)
             return hci_note_set(note, HCI_ERROR_ARGUMENT,
@@ -96,8 +89,23 @@ static hci_status check_words(const cli_arguments *a, hci_note *note)
                 return hci_note_set(note, HCI_ERROR_ARGUMENT,
                                     "tune: found the log %s twice, expected each one once; leave one out",
                                     a->word[k]);
+    return HCI_OK;
+}
+
+/* What can be refused before any work. */
+static hci_status check_words(const cli_arguments *a, hci_note *note)
+{
+    if (!a->value[TUNE_OUT] || !*a->value[TUNE_OUT])
+        return hci_note_set(note, HCI_ERROR_ARGUMENT, "tune: add --out FOLDER, a new folder for the results");
+    if (a->given[TUNE_SPEED] && !a->given[TUNE_BANDWIDTH])
+        return hci_note_set(
+            note, HCI_ERROR_ARGUMENT,
+            "tune: --speed is the speed at which a current loop is asked for; add --bandwidth "
+            "HZ, or leave it out");
+    hci_status status = check_logs(a, note);
     cli_reading reading;
-    const hci_status status = cli_reading_take(a, a->given[STRICT], a->value[ANGLE_OFFSET], &reading, note);
+    if (status) return status;
+    status = cli_reading_take(a, a->given[STRICT], a->value[ANGLE_OFFSET], &reading, note);
     cli_reading_release(&reading);
     return status || !a->given[TUNE_NAME] ? status : hci_emit_check_name(a->value[TUNE_NAME], note);
 }

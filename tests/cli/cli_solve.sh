@@ -171,7 +171,7 @@ check "colours or a progress bar in a file" eval "! grep -rq \"\$(printf '\\033'
 # ---- what a current loop makes of the currents: ten times as fast, ten times the speed
 
 run 0 solve data/machine_a --target $target --auto --bandwidth 100 -o "$work/auto100"
-says 'a current loop of 100 Hz adds no more than 0.38 N·m, a tenth of'
+says 'a current loop of 100 Hz adds no more than 0.38 N·m, a tenth of' '16 rpm'
 run 0 solve data/machine_a --target $target --auto --bandwidth 1000 --speed 160 -o "$work/auto1000"
 says 'at 160 rpm a current loop of 1000 Hz adds 0.3[0-9]* N·m from peak to peak'
 run 2 tune nothing.csv --pole-pairs 2 --kv 39 --speed 300 -o "$work/never"

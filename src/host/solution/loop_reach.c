@@ -101,8 +101,8 @@ static hci_status reach(followed *f, bool has_lead, double allowed_Nm, double *x
         if (before_Nm > 0.0 && fabs(*x - before_x) > 1e-9 * *x)
             slope = fmax(0.3, fmin(4.0, log(missed_Nm / before_Nm) / log(*x / before_x)));
         before_Nm = missed_Nm, before_x = *x;
-        const double times = missed_Nm > 0.0 ? pow((1.0 - NEAR) * allowed_Nm / missed_Nm, 1.0 / slope) : 1e3;
-        *x = fmin(MOST_X, *x * fmax(1e-3, fmin(1e3, times)));
+        const double factor = missed_Nm > 0.0 ? pow((1.0 - NEAR) * allowed_Nm / missed_Nm, 1.0 / slope) : 1e3;
+        *x = fmin(MOST_X, *x * fmax(1e-3, fmin(1e3, factor)));
     }
     *x = missed_Nm <= allowed_Nm ? (double)HUGE_VAL : 0.0;
     return HCI_OK;

@@ -28,7 +28,7 @@ static void say_reach(const hci_words *w, const hci_loop_reach *l)
     char rpm[NUMBER_SIZE], lead_rpm[NUMBER_SIZE];
     const bool is_given = l->bandwidth_Hz > 0.0;
     const double Hz = is_given ? l->bandwidth_Hz : USUAL_Hz;
-    hci_words_say(w, "up to %s", speed(Hz * l->rpm_per_Hz, rpm));
+    hci_words_say(w, isinf(l->rpm_per_Hz) ? "at %s" : "up to %s", speed(Hz * l->rpm_per_Hz, rpm));
     if (!is_given && isfinite(l->rpm_per_Hz)) hci_words_say(w, " for each %g Hz of its bandwidth", USUAL_Hz);
     if (isfinite(l->rpm_per_Hz))
         hci_words_say(w, " (%s where the table is read ahead by the delay of the loop)",

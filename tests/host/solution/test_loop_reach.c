@@ -193,7 +193,7 @@ static void test_words_have_the_speed_and_round_it_down(void)
         "by the delay of the loop)");
     l = (hci_loop_reach){0.0, 0.0, 0.0051, HUGE_VAL, HUGE_VAL, NAN, NAN, false};
     says(&l,
-         "a current loop adds no more than 0.0051 N·m, a tenth of what a plain sine leaves, up to any speed");
+         "a current loop adds no more than 0.0051 N·m, a tenth of what a plain sine leaves, at any speed");
 }
 
 int main(void)

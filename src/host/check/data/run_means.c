@@ -20,10 +20,8 @@ static bool follows(const check_samples *s, size_t k)
 }
 
 /* Between samples that are further apart than half a turn whole turns are lost. */
-#define COARSE 0.4 /* of a turn, that the speed goes between some samples, and varies by */
-#define FOLLOWED                                                                                             \
-    0.1 /* of a turn, rms, by which the angle then differs from the speed, but for whole turns               \
-         */
+#define COARSE   0.4 /* of a turn, that the speed goes between some samples, and varies by */
+#define FOLLOWED 0.1 /* of a turn, rms, by which angle and speed then differ, but for whole turns */
 
 /* The steps of an angle within one turn whose whole turns the speed tells, as it is declared; false: it does
  * not, or does not have to. path: out, their sum. */
