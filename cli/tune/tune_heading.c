@@ -1,5 +1,6 @@
 #include "cli/tune/tune_heading.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -155,31 +156,32 @@ static void say_table(cli_tuning *t)
 
 static void append(cli_tuning *t, const char *format, ...) HCI_PRINTF(2, 3);
 
-/* One more thing that a reader of the heading alone has to know. */
+/* One more thing that a reader of the heading has to know: a sentence without its full stop. */
 static void append(cli_tuning *t, const char *format, ...)
 {
-    char *heading = t->tuning.heading;
-    const size_t used = strlen(heading);
+    char words[1024];
     va_list values;
     va_start(values, format);
-    vsnprintf(heading + used, sizeof t->tuning.heading - used, format, values);
+    vsnprintf(words, sizeof words, format, values);
     va_end(values);
+    if (words[0] && words[1] != '_') words[0] = (char)toupper((unsigned char)words[0]);
+    hci_tuning_say(&t->tuning, HCI_TUNING_CAVEATS, "%s", words);
 }
 
 /* What else than the motor may be in the logs. */
 static void append_of_logs(cli_tuning *t)
 {
     if (t->once_a_turn_Nm > 0.0 && t->is_solved)
-        append(
-            t,
-            "; %.3g N·m of it come once or twice a turn, and a load on the shaft makes that as well as the "
-            "motor: without that load the table adds them",
-            t->once_a_turn_Nm);
+        append(t,
+               "%.3g N·m of the ripple come once or twice a turn, and a load on the shaft makes that as well "
+               "as the "
+               "motor: without that load the table adds them",
+               t->once_a_turn_Nm);
     if (cli_tune_clipped(t) > 0 && t->is_solved)
-        append(t, "; currents in %zu of %zu logs are clipped, and what they tell is too small",
+        append(t, "Currents in %zu of %zu logs are clipped, and what they tell is too small",
                cli_tune_clipped(t), t->runs.count);
     if (cli_tune_torque_clipped(t) > 0 && t->is_solved)
-        append(t, "; the torque in %zu of %zu logs is clipped, and what lies beyond is missing",
+        append(t, "The torque in %zu of %zu logs is clipped, and what lies beyond is missing",
                cli_tune_torque_clipped(t), t->runs.count);
 }
 
@@ -188,20 +190,20 @@ static void append_of_doubt(cli_tuning *t)
 {
     if (t->has_sensor_zero && t->is_solved)
         append(t,
-               "; the torque without current is %.3g N·m with the motion on average, where friction brakes: "
+               "The torque without current is %.3g N·m with the motion on average, where friction brakes: "
                "that "
                "is taken for the zero of its sensor; if its sign is the other one instead (--column "
                "torque=-COLUMN) the table doubles the ripple; one direction does not tell, a turn back does",
                t->drives_Nm);
     else if (t->drives_Nm > 0.0 && t->is_solved)
         append(t,
-               "; the torque without current is %.3g N·m with the motion on average, where friction brakes: "
+               "The torque without current is %.3g N·m with the motion on average, where friction brakes: "
                "either its zero is off, or its sign is the other one (--column torque=-COLUMN) and the table "
                "doubles the ripple; one direction does not tell, a turn back does",
                t->drives_Nm);
     if (t->size == CLI_TUNE_LARGE)
         append(t,
-               "; without current the torque varies by %.3g N·m, %.3g times the rated torque, and few motors "
+               "Without current the torque varies by %.3g N·m, %.3g times the rated torque, and few motors "
                "have so much: is the torque in N·m, and not in N·cm or lbf·in, and is Kv right?",
                t->open_swing_Nm, t->open_swing_Nm / cli_tune_rated_Nm(t));
 }
@@ -238,21 +240,22 @@ static void append_of_gain(cli_tuning *t)
 {
     const double gain = common_gain(t), other = -gain / (1.0 + gain);
     if (fabs(gain) > 0.0 && t->has_emf)
-        append(
-            t,
-            " (or, as to all three of them %.2g %% are common, the torque sensor reads %.2g %% too %s "
-            "instead: the back-EMF is from voltages of these logs, and nothing in them tells the two apart)",
-            100.0 * fabs(gain), 100.0 * fabs(other), other < 0.0 ? "little" : "much");
+        append(t,
+               "%.2g %% are common to the gains of all three currents, and may be the torque sensor's "
+               "instead, which "
+               "reads %.2g %% too %s then: the back-EMF is from voltages of these logs, and nothing in them "
+               "tells the two apart",
+               100.0 * fabs(gain), 100.0 * fabs(other), other < 0.0 ? "little" : "much");
     else if (fabs(gain) > 0.0)
         append(
             t,
-            " (or, as to all three of them %.2g %% are common, the back-EMF is %.2g %% %s instead, which a "
-            "torque sensor does not tell from it and voltages of the open machine do)",
+            "%.2g %% are common to the gains of all three currents, and may be the back-EMF's instead, which "
+            "is %.2g %% %s then: a torque sensor does not tell the two apart, and voltages of the open "
+            "machine do",
             100.0 * fabs(gain), 100.0 * fabs(other), other < 0.0 ? "smaller" : "larger");
     if (strstr(t->solution.corrections, " A from i_"))
-        append(
-            t,
-            " (the offsets are those of the logs: a drive that nulls its sensors at each start has others)");
+        append(t, "The offsets of the currents are those of the logs: a drive that nulls its sensors at each "
+                  "start has others");
 }
 
 /* How early a channel is read that a drive can correct, s; 0: none is. */
@@ -262,7 +265,7 @@ static double early_s(const cli_tuning *t)
     for (size_t k = 0; k < list->count; ++k) {
         const hci_effect *e = &list->effect[k];
         for (size_t j = 0; e->type->late && j < e->count; ++j)
-            if (e->type->correction[e->term[j].parameter].before && e->term[j].value < 0.0)
+            if (e->type->correction[e->term[j].parameter].late_alone && e->term[j].value < 0.0)
                 return -e->term[j].value;
     }
     return 0.0;
@@ -274,17 +277,19 @@ static void append_of_early(cli_tuning *t)
     const double early = early_s(t);
     if (early > 0.0)
         append(t,
-               " (no channel is read %.2g s before it is true, unless the drive looks ahead: a torque sensor "
-               "that is late by as much shows nearly the same, and nothing is to be corrected then, which "
-               "logs at other speeds and loads tell)",
-               early);
+               "The angle seems to be read %.2g s before it is true, as no sensor does: most likely the "
+               "torque sensor is late by as much, and nothing is corrected for it; where the drive looks "
+               "ahead, or "
+               "reads its currents late, add to the angle the speed times -%.5g s, and logs at other speeds "
+               "and loads tell which it is",
+               early, early);
 }
 
 static void append_of_zero(cli_tuning *t)
 {
     if (fabs(t->open_turn_deg) > 0.0 && t->is_solved)
         append(t,
-               "; the back-EMF is found turned by %.1f ± %.1f degrees%s, which a saliency with its "
+               "The back-EMF is found turned by %.1f ± %.1f degrees%s, which a saliency with its "
                "saturation may do as well as another zero: %s with i_d of both signs at two currents, or "
                "voltages of the open machine, tell them apart",
                t->open_turn_deg, t->open_turn_error_deg, t->turn_is_of_dq ? " against i_d and i_q" : "",
@@ -292,7 +297,7 @@ static void append_of_zero(cli_tuning *t)
     if (fabs(t->turned_deg) > 0.0 && t->is_solved)
         append(
             t,
-            "; the electrical zero of the logs is %.1f ± %.1f degrees off by the torques, unless the machine "
+            "The electrical zero of the logs is %.1f ± %.1f degrees off by the torques, unless the machine "
             "has a saliency that nobody declared: begin again with --angle-offset %.1f",
             fabs(t->turned_deg), t->turned_error_deg, cli_tune_offset_to_give(t));
 }
@@ -304,11 +309,11 @@ static void append_of_miss(cli_tuning *t)
     if (!cli_tune_is_missed(t) || t->size == CLI_TUNE_EXCESS) return;
     for (size_t k = 0; k < s->limit_count; ++k)
         if (s->limit[k].binds) {
-            append(t, "; the torque is not as wanted, since the currents keep a limit, %s %.4g A",
+            append(t, "The torque is not as wanted, since the currents keep a limit, %s %.4g A",
                    hci_limit_kind_name(s->limit[k].kind), s->limit[k].limit);
             return;
         }
-    append(t, "; the torque is not as wanted: order %.4g is off by %.2g N·m, and more than %.2g N·m counts",
+    append(t, "The torque is not as wanted: order %.4g is off by %.2g N·m, and more than %.2g N·m counts",
            s->worst_order, s->worst_error_Nm, fmax(s->tolerance_Nm, 0.5 * t->cut_Nm));
 }
 
@@ -320,7 +325,7 @@ static void append_of_excess(cli_tuning *t)
         const hci_limit *l = &s->limit[k];
         if (!(l->value > l->limit)) continue;
         append(t,
-               "; the currents do not keep a limit, %s %.4g %s, but take %.4g: the table is not for "
+               "The currents do not keep a limit, %s %.4g %s, but take %.4g: the table is not for "
                "continuous use, and --torque with less is",
                hci_limit_kind_name(l->kind), l->limit,
                l->kind == HCI_LIMIT_VOLTAGE  ? "V"
@@ -338,7 +343,7 @@ static void append_of_loop(cli_tuning *t)
     if (!t->is_solved || t->size == CLI_TUNE_EXCESS || cli_tune_is_of_no_use(t) || cli_tune_is_never_seen(t))
         return;
     hci_loop_reach_words(&t->solution.loop, words, sizeof words);
-    if (words[0]) append(t, "; all that holds for currents that flow as in the table: %s", words);
+    if (words[0]) append(t, "The figures are of currents that flow as in the table: %s", words);
 }
 
 /* What the table needs of the drive, and does not do. */
@@ -346,36 +351,34 @@ static void append_of_table(cli_tuning *t)
 {
     append_of_logs(t);
     if (t->is_solved && *t->solution.corrections)
-        append(
-            t,
-            "; this holds once the sensors of the drive, where they are those of the logs, are corrected: %s",
-            t->solution.corrections);
-    if (t->is_solved && *t->solution.corrections) {
-        append_of_gain(t);
-        append_of_early(t);
-    }
+        append(t,
+               "The sensors of the drive, where they are those of the logs, have to be corrected before: %s",
+               t->solution.corrections);
+    if (t->is_solved && *t->solution.corrections) append_of_gain(t);
+    if (t->is_solved) append_of_early(t);
     append_of_zero(t);
     append_of_doubt(t);
     append_of_miss(t);
     if (t->is_solved && t->size != CLI_TUNE_EXCESS) append_of_excess(t);
     if (cli_tune_misses_torque(t))
-        append(t, "; the table makes %.4g N·m on average, and not the %.4g N·m that were wanted",
+        append(t, "The table makes %.4g N·m on average, and not the %.4g N·m that were wanted",
                cli_tune_made_Nm(t), t->mean_Nm);
     if (cli_tune_is_far_beyond(t))
         append(t,
-               "; its peak current, %.3g A, is %.2g times the largest recorded one, %.3g A: are the rated "
+               "The peak current of the table, %.3g A, is %.2g times the largest recorded one, %.3g A: are "
+               "the rated "
                "current and the torque in A and N·m?",
                t->solution.peak_phase_current_A,
                t->solution.peak_phase_current_A / cli_tune_largest_recorded_A(t),
                cli_tune_largest_recorded_A(t));
     if (cli_tune_strange_rpm(t) > 0.0)
         append(t,
-               "; what the resistance takes at the rated current would turn this motor at %.2g rpm: are %s, "
+               "What the resistance takes at the rated current would turn this motor at %.2g rpm: are %s, "
                "--resistance and --rated-current of this motor and in their units?",
                cli_tune_strange_rpm(t), cli_tune_constant_option(t));
     if (cli_tune_is_below_idle(t))
         append(t,
-               "; by this Kv %.3g N·m take %.3g A, and the shaft without a load took up to %.3g A: is %s the "
+               "By this Kv %.3g N·m take %.3g A, and the shaft without a load took up to %.3g A: is %s the "
                "right number in its unit, and the torque in N·m?",
                t->mean_Nm, t->solution.plain_amplitude_A, cli_tune_largest_recorded_A(t),
                cli_tune_constant_option(t));
@@ -386,26 +389,25 @@ static void append_of_torque(cli_tuning *t)
 {
     char order[CLI_TUNE_ORDER];
     if (cli_tune_reach_of_slopes(t) > 0.0)
-        append(t, "; these recordings do not show cogging torque above order %.3g",
+        append(t, "These recordings do not show cogging torque above order %.3g",
                cli_tune_reach_of_slopes(t));
     if (cli_tune_is_short(t) && t->is_solved) {
         char turns[CLI_TUNE_COLUMN_WORDS];
         cli_tune_say_turns(t, turns);
-        append(t,
-               "; the logs cover %.2g of a turn, and at least a whole one is needed to tell orders apart%s",
+        append(t, "The logs cover %.2g of a turn, and at least a whole one is needed to tell orders apart%s",
                t->turns, turns);
     }
     if (cli_tune_is_coarse(t) && t->is_solved && !(cli_tune_reach_of_slopes(t) > 0.0))
-        append(t, "; orders above %.3g were not looked at, since the samples lie too far apart",
+        append(t, "Orders above %.3g were not looked at, since the samples lie too far apart",
                t->highest_order);
     if (cli_tune_hangs_on_lag(t))
-        append(t, "; unless the torque sensor reads late, which one speed does not tell");
+        append(t, "The torque sensor is taken to be in time, which one speed does not tell");
     if (t->mains_Hz > 0.0 && t->is_solved)
-        append(t, "; order %s is %.0f Hz at this one speed, as hum of the mains is: another speed tells",
+        append(t, "Order %s is %.0f Hz at this one speed, as hum of the mains is: another speed tells",
                cli_tune_order_words(t, t->mains_order, order), t->mains_Hz);
     else if (t->fast_Hz > 0.0 && t->is_solved && t->solution.expected.state != HCI_RIPPLE_KNOWN)
         append(t,
-               "; at this one speed the ripple has %.0f Hz, of which a slower torque sensor or filter shows "
+               "At this one speed the ripple has %.0f Hz, of which a slower torque sensor or filter shows "
                "less, and late: a slow turn beside it tells",
                t->fast_Hz);
 }
@@ -422,7 +424,7 @@ static void append_of_declared_inertia(cli_tuning *t)
     hci_tuning_swing(&t->solution, &before_Nm, &after_Nm);
     if (of)
         append(t,
-               "; the declared inertia of %.3g kg·m² is not that of this shaft: by current and acceleration "
+               "The declared inertia of %.3g kg·m² is not that of this shaft: by current and acceleration "
                "it is %.2g to "
                "%.3g kg·m² (as long as the torque per ampere is right), and what is wrong in it is in "
                "the orders "
@@ -431,12 +433,12 @@ static void append_of_declared_inertia(cli_tuning *t)
                t->is_own && of->torque_source == HCI_TORQUE_HOLDING ? ", or without --inertia" : "");
     else if (cli_tune_is_scaled_by_inertia(t) && before_Nm >= t->solution.tolerance_Nm)
         append(t,
-               "; all torques are in proportion to the declared inertia of %.3g kg·m², which nothing in "
+               "All torques are in proportion to the declared inertia of %.3g kg·m², which nothing in "
                "these logs tells",
                inertia_kgm2);
     else if (taken_Nm > MUCH_INERTIA * before_Nm)
         append(t,
-               "; %.2g N·m rms of the torque hang on the declared inertia of %.3g kg·m², which these logs "
+               "%.2g N·m rms of the torque hang on the declared inertia of %.3g kg·m², which these logs "
                "hardly tell",
                taken_Nm, inertia_kgm2);
 }
@@ -450,7 +452,7 @@ static void append_of_inertia(cli_tuning *t)
     hci_tuning_swing(&t->solution, &before_Nm, &after_Nm);
     if (taken_Nm > MUCH_INERTIA * before_Nm)
         append(t,
-               "; an inertia of %.3g ± %.1g kg·m² was found in the log, and %.2g N·m rms of the ripple hang "
+               "An inertia of %.3g ± %.1g kg·m² was found in the log, and %.2g N·m rms of the ripple hang "
                "on it: "
                "--inertia gives it",
                of->turns_inertia_kgm2, of->turns_inertia_error_kgm2, taken_Nm);
@@ -461,12 +463,12 @@ static void append_of_sign(cli_tuning *t)
     double deg;
     if (t->is_solved && cli_tune_off_iq(t, &deg))
         append(t,
-               "; the phase currents do not lie along the i_q of this angle: where the drive keeps its i_d "
+               "The phase currents do not lie along the i_q of this angle: where the drive keeps its i_d "
                "at 0, "
                "the electrical zero is off, and --angle-offset %.0f or %.0f is right",
                deg, remainder(deg + 180.0, 360.0));
     else if (t->is_solved && cli_tune_lacks_sign(t))
-        append(t, "; the sign of i_q is not told, and with the other one it doubles");
+        append(t, "The sign of i_q is not told, and with the other one the ripple doubles");
 }
 
 /* What they do not tell of the machine, and what of them was not used. */
@@ -475,34 +477,34 @@ static void append_of_machine(cli_tuning *t)
     char order[CLI_TUNE_ORDER], words[512];
     append_of_inertia(t);
     if (t->is_solved && cli_tune_is_without_angle(t))
-        append(t, "; no log has an angle: the table begins where the back-EMF of phase a rises through zero, "
+        append(t, "No log has an angle: the table begins where the back-EMF of phase a rises through zero, "
                   "and cannot be played before the electrical zero of the drive is set there");
     if (t->is_solved) append_of_declared_inertia(t);
     if (cli_tune_is_uncounted(t))
-        append(t, "; that there are %d pole pairs is taken on trust, since nothing in these logs counts them",
+        append(t, "That there are %d pole pairs is taken on trust, since nothing in these logs counts them",
                t->declared.model.pole_pairs);
     append_of_sign(t);
     if (t->is_solved && cli_tune_is_electrical_alone(t))
         append(
             t,
-            "; the angle begins again in each of the %d electrical turns: what slots and magnets make once "
+            "The angle begins again in each of the %d electrical turns: what slots and magnets make once "
             "in "
             "a turn of the shaft is not told, and what these logs do not average out stands among the orders",
             t->declared.model.pole_pairs);
-    if (cli_tune_say_long(t, words, sizeof words)) append(t, "; %s", words);
+    if (cli_tune_say_long(t, words, sizeof words)) append(t, "%s", words);
     if (cli_tune_is_off_sheet(t))
-        append(t, "; the measured back-EMF is %.3g times that of the data sheet", t->emf_to_sheet);
-    if (t->left_out > 0) append(t, "; %zu of %zu logs left out", t->left_out, t->left_out + t->kept.words);
+        append(t, "The measured back-EMF is %.3g times that of the data sheet", t->emf_to_sheet);
+    if (t->left_out > 0) append(t, "%zu of %zu logs left out", t->left_out, t->left_out + t->kept.words);
     if (t->has_doubt && !cli_tune_is_off_sheet(t))
-        append(t, "; check does not understand all that the logs say");
+        append(t, "`check` does not understand all that the logs say");
     if (t->stranger_order > 0.0)
         append(t,
-               "; the largest order found, %s, is none that %.0f slots and %d poles make: %.5g and its "
+               "The largest order found, %s, is none that %.0f slots and %d poles make: %.5g and its "
                "multiples",
                cli_tune_order_words(t, t->stranger_order, order), t->declared.slots,
                2 * t->declared.model.pole_pairs, cli_tune_order_of_slots(t));
     if (cli_tune_misses_slots(t) && !cli_tune_has_high_slots(t))
-        append(t, "; order %.5g, which slots and poles make, was not looked at", cli_tune_order_of_slots(t));
+        append(t, "Order %.5g, which slots and poles make, was not looked at", cli_tune_order_of_slots(t));
 }
 
 static bool has_rough_clock(const cli_tuning *t)
@@ -635,9 +637,9 @@ static void append_of_columns(cli_tuning *t)
     const char *torque = cli_tune_lacks_torque(t) ? cli_tune_torque_like(t) : NULL;
     const char *current = !t->has_slip && !torque ? cli_tune_current_like(t) : NULL;
     if (torque)
-        append(t, "; if the column `%s` is a torque, add --column '%s'", strchr(torque, '=') + 1, torque);
+        append(t, "If the column `%s` is a torque, add --column '%s'", strchr(torque, '=') + 1, torque);
     if (current)
-        append(t, "; no current was read: if the column `%s` is i_q, add --column '%s'",
+        append(t, "No current was read: if the column `%s` is i_q, add --column '%s'",
                strchr(current, '=') + 1, current);
 }
 
@@ -674,7 +676,7 @@ static void say_why_not_solved(cli_tuning *t)
 static void append_of_sheet(cli_tuning *t)
 {
     char words[512];
-    if (cli_tune_say_sheet(t, words, sizeof words)) append(t, "; %s", words);
+    if (cli_tune_say_sheet(t, words, sizeof words)) append(t, "%s", words);
 }
 
 void cli_tune_set_heading(cli_tuning *t)

@@ -70,10 +70,21 @@ static void show_commands(const cli_tuning *t)
     }
 }
 
+static void show_heading(const hci_tuning *t)
+{
+    const char *text = t->part[HCI_TUNING_CAVEATS];
+    cli_say("%s%s" CLI_PLAIN ": %s\n", t->good ? CLI_GOOD : CLI_WARN, t->verdict, t->heading);
+    while (*text) {
+        const size_t length = strcspn(text, "\n");
+        cli_say("  - %.*s\n", (int)length, text);
+        text += length + (text[length] == '\n');
+    }
+}
+
 void cli_show_tuning(const cli_tuning *t)
 {
     const hci_tuning *r = &t->tuning;
-    cli_say("%s%s" CLI_PLAIN ": %s\n", r->good ? CLI_GOOD : CLI_WARN, r->verdict, r->heading);
+    show_heading(r);
     if (t->is_solved && t->size != CLI_TUNE_EXCESS) {
         char words[1024];
         show_before_and_after(t);
@@ -84,7 +95,7 @@ void cli_show_tuning(const cli_tuning *t)
         cli_say("  on the real machine\n");
         cli_say_paragraph(4, words);
     }
-    for (int k = 0; k < HCI_TUNING_PARTS; ++k)
+    for (int k = HCI_TUNING_READ; k < HCI_TUNING_PARTS; ++k)
         show_part(r, (hci_tuning_part)k);
     cli_say("\nThe report is %s/report.html; sh %s/commands.sh FOLDER does this again, step by step:\n",
             t->out, t->out);

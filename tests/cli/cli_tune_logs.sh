@@ -97,7 +97,7 @@ says '^a convention is broken: i_q works against the motion in against.csv: i_q 
 refused against
 map smooth.csv 1 0
 run 0 tune smooth.csv --pole-pairs 7 --kv 120 -o smooth
-says '^tuned: .*; the sign of i_q is not told, and with the other one it doubles' 'Whether i_q drives the shaft the way in which the angle is counted'
+says '^tuned: ' '^  - The sign of i_q is not told, and with the other one the ripple doubles' 'Whether i_q drives the shaft the way in which the angle is counted'
 
 # phase currents of a drive that keeps its i_d at 0 tell it too, count the pole pairs, and show where the zero is
 phases() { # NAME OFF_deg FRICTION_A HASTENED: the zero of the angle is so much behind the drive's; hastened by so much against its cogging torque of 0.2 A
@@ -116,7 +116,7 @@ says '^a convention is broken: .*the zero of the angle is half an electrical tur
 run 0 tune half.csv --pole-pairs 7 --kv 120 --angle-offset 180 -o half
 phases third.csv 60 0.06 -0.5
 run 1 tune third.csv --pole-pairs 7 --kv 120 -o third
-says '^tuned, with something left open: .*do not lie along the i_q of this angle: .*--angle-offset 60 or -120 is right'
+says '^tuned, with something left open: ' '^  - .*do not lie along the i_q of this angle: .*--angle-offset 60 or -120 is right'
 run 0 tune third.csv --pole-pairs 7 --kv 120 --angle-offset 60 -o third
 # a current without friction has a mean that turns round with the motion, where the shaft is longer where it is slow, and is accused of nothing
 phases ideal_phases.csv 0 0 0.25

@@ -48,7 +48,7 @@ for unit in 'degrees 57.29577951 theta_m_deg=theta_m_rad' 'counts 1303.797 theta
     rm -rf fast
 done
 run 1 tune even.csv --pole-pairs 7 --kv 100000 --resistance 8 --rated-current 1.5 --inertia 1e-9 -o krpm
-says '; what the resistance takes at the rated current would turn this motor at 2\.[0-9]*e\+06 rpm: are --kv, --resistance and --rated-current'
+says '^  - What the resistance takes at the rated current would turn this motor at 2\.[0-9]*e\+06 rpm: are --kv, --resistance and --rated-current'
 crawl third.csv 'x / 3' i
 tuned 1 third
 says '^a convention is broken: Most likely the angle of the recordings is of a shaft behind a gear of 3'
@@ -63,7 +63,7 @@ says 'in 3[34][0-9]* of 15400 rows the angle stays' '^tuned: A ripple of 0.008.*
 
 crawl clipped.csv x '(i > 0.07 ? 0.07 : i < -0.07 ? -0.07 : i)'
 tuned 1 clipped
-says 'currents in 1 of 1 logs are clipped' 'the crests of the current are all of one value'
+says 'Currents in 1 of 1 logs are clipped' 'the crests of the current are all of one value'
 
 # BEGIN END STAND: a shaft of four pole pairs that another machine turns, without current; the sensor's ends, and rows for which it stands at first
 driven() {
@@ -104,11 +104,11 @@ driven_at() {
     run 0 tune hum.csv --pole-pairs 4 --kv 18.38 --slots 12 -o hum
 }
 driven_at 0.001570796326795 0.02 # 15 rpm
-says '^tuned: .*; order 50 is 50 Hz at this one speed, as hum of the mains is: another speed tells'
+says '^tuned: ' '^  - Order 50 is 50 Hz at this one speed, as hum of the mains is: another speed tells'
 driven_at 0.001570796326795 0
 check "hum where there is none" [ "$(grep -c "of the mains\|slower torque sensor" stdout)" = 0 ]
 driven_at 0.0157 0 # 150 rpm
-says '^tuned: .*; at this one speed the ripple has [1-9][0-9]* Hz, of which a slower torque sensor or filter shows less'
+says '^tuned: ' '^  - At this one speed the ripple has [1-9][0-9]* Hz, of which a slower torque sensor or filter shows less'
 # ten samples a turn, at the same ten angles in each of eighty turns, cover all of it
 awk 'NR == 1 || NR % 40 == 0' hum.csv | awk -F, -v OFS=, 'NR > 1 { $2 = 0.2 + 0.6283185307 * NR } 1' >ten.csv
 run 1 tune ten.csv --pole-pairs 4 --kv 18.38 -o ten
@@ -123,7 +123,7 @@ for log in counted counting; do
 done
 rm -rf even
 tuned 0 even
-says 'that there are 7 pole pairs is taken on trust, since nothing in these logs counts them$' 'Whether there are 7 pole pairs'
+says 'That there are 7 pole pairs is taken on trust, since nothing in these logs counts them$' 'Whether there are 7 pole pairs'
 
 # what can be refused before any work, and names as they were given
 run 2 tune even.csv --pole-pairs 7 --kv 100 --name 'my table' -o named
@@ -162,14 +162,14 @@ tuned 1 still
 says "^a table of no use: Nothing"
 
 run 0 tune even.csv --pole-pairs 7 --kv 100 --slots 9 --inertia 2e-5 -o nine
-says 'the largest order found, 12, is none that 9 slots and 14 poles make: 18 and its multiples'
+says 'The largest order found, 12, is none that 9 slots and 14 poles make: 18 and its multiples'
 crawl third.csv x 'i - 0.02 * sin(252 * x + 0.3)' # 36 is a multiple of 12 as well as of 18
 run 0 tune third.csv --pole-pairs 7 --kv 100 --slots 9 --inertia 2e-5 -o third
-says 'the largest order found, 12, is none that 9 slots and 14 poles make: 18 and its multiples'
+says 'The largest order found, 12, is none that 9 slots and 14 poles make: 18 and its multiples'
 
 awk -F, 'NR == 1 || int($2 / 3.14159) % 2 == 0' even.csv >gap.csv
 tuned 1 gap
-says 'the logs cover 0.5'
+says 'The logs cover 0.5'
 
 cut -d, -f1-4 even.csv >lone.csv
 tuned 0 lone
@@ -278,7 +278,7 @@ says 'a convention is broken: .*(--torque-constant is 10 times too small|whose p
 
 # a figure of the sheet with another unit: the first line has the number that fits, by torques or by what motors have
 run 1 tune none.csv two.csv three.csv --pole-pairs 4 --kv 38.5 -o sheet
-says '^[a-z ,]*: .*; the torques of the logs are 2\.0?9?[0-9]* times those of --kv 38\.5, and --volt-per-krpm 38\.5 fits'
+says '^[a-z ,]*: ' '^  - The torques of the logs are 2\.0?9?[0-9]* times those of --kv 38\.5, and --volt-per-krpm 38\.5 fits'
 check "not in summary.json" grep -q 'volt-per-krpm 38\.5 fits' sheet/summary.json
 run 1 tune none.csv two.csv three.csv --pole-pairs 4 --torque-constant 450 -o sheet
 says 'and --torque-constant 0\.45 fits'
@@ -286,7 +286,7 @@ for given in '--flux 14' '--kv 0.1' '--torque-constant 150'; do
     run 1 tune even.csv --pole-pairs 7 $given --torque 0.2 -o sheet
     number=${given#* }
     meant=$(awk -v n="$number" 'BEGIN { print n < 1 ? 1000 * n : n / 1000 }')
-    says "^tuned, with something left open: .*: is ${given% *} $meant meant, in another unit by a factor of 1000"
+    says "^tuned, with something left open: " "^  - .*: is ${given% *} $meant meant, in another unit by a factor of 1000"
 done
 run 1 tune even.csv --pole-pairs 7 --kv 100 --rated-current 5000 --torque 0.2 -o sheet
 says 'is it in mA .--rated-current 5.'
@@ -351,7 +351,7 @@ run 1 tune magnets --runs droop.csv --torque 500 -o beyond
 says '^the size is not believable: A torque of 500 N·m would take a sine of [0-9]* A, .* times the 8 A that are rated or recorded'
 check "a table of a torque that no current of this motor makes" [ ! -e beyond/table ]
 run 1 tune magnets --runs droop.csv --torque 12 -o above
-says '; the currents do not keep a limit, rms 5\.657 A, but take [0-9.]*: the table is not for continuous use'
+says '^  - The currents do not keep a limit, rms 5\.657 A, but take [0-9.]*: the table is not for continuous use'
 
 # ---- remedies that can work: files and units by what is there
 
@@ -365,7 +365,7 @@ run 3 tune nothing/at.csv --pole-pairs 5 --volt-per-krpm 97.5 -o none
 says 'its folder is not there either'
 awk -F, -v OFS=, 'NR > 1 { $6 *= 100 } 1' droop0.8.csv >centi.csv
 run 1 tune centi.csv --pole-pairs 5 --volt-per-krpm 97.5 -o centi
-says '^a convention is broken: .*; the torques of the logs are [0-9]* times those of --volt-per-krpm 97.5, which magnets of no motor make: .*--column torque_Ncm=COLUMN'
+says '^a convention is broken: ' '^  - The torques of the logs are [0-9]* times those of --volt-per-krpm 97.5, which magnets of no motor make: .*--column torque_Ncm=COLUMN'
 check "a figure of the sheet in place of the unit of a column" [ "$(grep -c 'krpm 9750' "$work/stdout")" -eq 0 ]
 awk -F, 'NR == 1 { print "t [s],Angle [rad],Speed [rad/s],i_q [A],Torque [Nm]"; next } { print $1 "," $2 * 57.29578 "," $3 "," $5 "," $6 }' droop0.8.csv >degrees_as_rad.csv
 run 3 tune degrees_as_rad.csv --pole-pairs 5 --volt-per-krpm 97.5 -o none
@@ -378,7 +378,7 @@ awk 'BEGIN { print "time_s,v_ab_V,v_bc_V"; turn = 6.283185307179586
     for (k = 0; k < 1500; ++k) { e = turn * 30 * k / 5000; for (s = 0; s < 3; ++s) { x = e - s * turn / 3; v[s] = 10 * sin(x) + 0.4 * sin(5 * e + s * turn / 3) }
         printf "%.5f,%.5f,%.5f\n", k / 5000, v[0] - v[1], v[1] - v[2] } }' >scope.csv
 run 1 tune scope.csv --pole-pairs 3 --volt-per-krpm 20 --rated-current 3 -o scope
-says '; no log has an angle: the table begins where the back-EMF of phase a rises through zero, and cannot be played before'
+says '^  - No log has an angle: the table begins where the back-EMF of phase a rises through zero, and cannot be played before'
 check "a zero of logs without an angle" [ "$(tr '\n' ' ' <"$work/stdout" | grep -c 'from the zero of the  *logs')" -eq 0 ]
 
 # ---- nothing is read before it is true
@@ -395,6 +395,6 @@ late() {
 late early0 60 0
 late early1 -60 0
 "$hci_solve" tune early?.csv --pole-pairs 4 --kv 18.38 -o early >"$work/stdout" 2>"$work/stderr"
-says 'a torque sensor that is late by as much shows nearly the same, and nothing is to be corrected then'
+says 'The angle seems to be read 0.0003 s before it is true, as no sensor does: most likely the torque sensor is late by as much, and nothing is corrected for it'
 
 finish

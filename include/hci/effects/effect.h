@@ -121,6 +121,7 @@ typedef struct {
     double plus;        /* added to the value */
     const char *after;  /* words after it */
     const char *behind; /* words behind the order, which follows where they are given; NULL: none */
+    bool late_alone;    /* a value below 0 is nothing that a sensor does: nothing is said of it */
 } hci_effect_correction;
 
 /* ---- types ---- */

@@ -122,7 +122,7 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
 }
 
 static const hci_effect_correction CORRECTION[] = {
-    {"take for the currents (of a low pass) the angle of ", 0.0, " s before", NULL}};
+    {"take for the currents (of a low pass) the angle of ", 0.0, " s before", NULL, false}};
 
 const hci_effect_type hci_effect_current_filter = {
     .name = "current_filter",

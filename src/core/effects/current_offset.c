@@ -51,8 +51,9 @@ static double sum_by_value(const hci_effect_term *term, const hci_sample *truth)
     return 1.0;
 }
 
-#define EXPECTED 0.05 /* of the largest current; what stands still while the rotor turns may all be theirs   \
-                       */
+#define EXPECTED                                                                                             \
+    0.05 /* of the largest current; what stands still while the rotor turns may all be theirs                \
+          */
 
 static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
 {
@@ -66,9 +67,9 @@ static void propose_alike(const hci_machine *machine, double slots, const hci_ef
     hci_effect_propose(to, 0, 2, 0.0, 1.0, 0.0);
 }
 
-static const hci_effect_correction CORRECTION[] = {{"subtract ", 0.0, " A from i_a", NULL},
-                                                   {"subtract ", 0.0, " A from i_b", NULL},
-                                                   {"subtract ", 0.0, " A from i_c", NULL}};
+static const hci_effect_correction CORRECTION[] = {{"subtract ", 0.0, " A from i_a", NULL, false},
+                                                   {"subtract ", 0.0, " A from i_b", NULL, false},
+                                                   {"subtract ", 0.0, " A from i_c", NULL, false}};
 
 const hci_effect_type hci_effect_current_offset = {
     .name = "current_offset",

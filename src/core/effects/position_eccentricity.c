@@ -66,8 +66,8 @@ static void propose_alike(const hci_machine *machine, double slots, const hci_ef
 }
 
 static const hci_effect_correction CORRECTION[] = {
-    {"subtract from the mechanical angle ", 0.0, " rad sin(", " theta_m)"},
-    {"subtract from the mechanical angle ", 0.0, " rad cos(", " theta_m)"}};
+    {"subtract from the mechanical angle ", 0.0, " rad sin(", " theta_m)", false},
+    {"subtract from the mechanical angle ", 0.0, " rad cos(", " theta_m)", false}};
 
 const hci_effect_type hci_effect_position_eccentricity = {
     .name = "position_eccentricity",

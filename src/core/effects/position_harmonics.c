@@ -79,8 +79,8 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
 }
 
 static const hci_effect_correction CORRECTION[] = {
-    {"subtract from the electrical angle ", 0.0, " rad sin(", " theta)"},
-    {"subtract from the electrical angle ", 0.0, " rad cos(", " theta)"}};
+    {"subtract from the electrical angle ", 0.0, " rad sin(", " theta)", false},
+    {"subtract from the electrical angle ", 0.0, " rad cos(", " theta)", false}};
 
 const hci_effect_type hci_effect_position_harmonics = {
     .name = "position_harmonics",

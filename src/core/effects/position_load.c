@@ -94,7 +94,7 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
 }
 
 static const hci_effect_correction CORRECTION[] = {
-    {"subtract from the electrical angle ", 0.0, " rad for each ampere of i_q", NULL}};
+    {"subtract from the electrical angle ", 0.0, " rad for each ampere of i_q", NULL, false}};
 
 const hci_effect_type hci_effect_position_load = {
     .name = "position_load",

@@ -49,7 +49,7 @@ static void propose_alike(const hci_machine *machine, double slots, const hci_ef
 }
 
 static const hci_effect_correction CORRECTION[] = {
-    {"subtract ", 0.0, " rad from the electrical angle", NULL}};
+    {"subtract ", 0.0, " rad from the electrical angle", NULL, false}};
 
 const hci_effect_type hci_effect_position_offset = {
     .name = "position_offset",

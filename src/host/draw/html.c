@@ -122,6 +122,13 @@ static void put_clause(hci_output *out, const char *text, size_t length)
     put_with_code(out, clause);
 }
 
+static void put_item(hci_output *out, const char *text, size_t length)
+{
+    hci_output_text(out, "<li>");
+    put_clause(out, text, length);
+    hci_output_text(out, "</li>\n");
+}
+
 /* The first clause is the heading, the others are a list under it. */
 static void put_heading_and_rest(hci_output *out, const char *text)
 {
@@ -134,9 +141,19 @@ static void put_heading_and_rest(hci_output *out, const char *text)
     for (text += length; *text; text += length) {
         text += 2;
         length = clause_of(text);
-        hci_output_text(out, "<li>");
-        put_clause(out, text, length);
-        hci_output_text(out, "</li>\n");
+        put_item(out, text, length);
+    }
+    hci_output_text(out, "</ul>\n");
+}
+
+void hci_html_also(hci_output *out, const char *text)
+{
+    if (!*text) return;
+    hci_output_text(out, "<ul class=\"also\">\n");
+    while (*text) {
+        const size_t length = strcspn(text, "\n");
+        put_item(out, text, length);
+        text += length + (text[length] == '\n');
     }
     hci_output_text(out, "</ul>\n");
 }

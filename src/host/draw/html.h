@@ -24,6 +24,9 @@ typedef struct {
 void hci_html_begin(hci_output *out, const hci_html_opening *opening);
 void hci_html_end(hci_output *out);
 
+/* Lines as further items under the heading; "": none. */
+void hci_html_also(hci_output *out, const char *lines);
+
 /* ---- text ---- */
 
 /* What stands between two grave accents in the text is set as code. */

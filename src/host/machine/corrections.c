@@ -10,6 +10,12 @@ static void say_term(const hci_words *w, const hci_effect_correction *c, const h
     if (c->behind) hci_words_say(w, "%.5g%s", term->order, c->behind);
 }
 
+/* No sensor reads before it is true: a time below 0 is more likely that of the torque sensor, which is late. */
+static bool is_said(const hci_effect_correction *c, double value)
+{
+    return c->late_alone ? value > 0.0 : value != 0.0;
+}
+
 void hci_corrections_words(const hci_effects *effects, char *text, size_t size)
 {
     const hci_words w = {text, size};
@@ -18,7 +24,7 @@ void hci_corrections_words(const hci_effects *effects, char *text, size_t size)
         const hci_effect *e = &effects->effect[n];
         for (size_t k = 0; k < e->count && e->type->correction; ++k) {
             const hci_effect_correction *c = &e->type->correction[e->term[k].parameter];
-            if (c->before && e->term[k].value != 0.0) say_term(&w, c, &e->term[k]);
+            if (c->before && is_said(c, e->term[k].value)) say_term(&w, c, &e->term[k]);
         }
     }
 }

@@ -556,6 +556,17 @@ static void test_heading_and_list(void)
          0);
 }
 
+/* Of lines each is an item as it stands. */
+static void test_further_items_of_a_heading(void)
+{
+    hci_output *out = begin_part();
+    hci_html_also(out, "");
+    hci_html_also(out, "as in `one`; not two < 3\ni_d\n");
+    end_part(out);
+    find("<ul class=\"also\">\n<li>As in <code>one</code>; not two &#60; 3</li>\n<li>i_d</li>\n</ul>\n", 0);
+    TEST_ASSERT_NULL(strstr(strstr(picture, "<ul") + 1, "<ul"));
+}
+
 /* Torque has one unit, currents have prefixes. */
 static void test_quantities_of_a_page(void)
 {
@@ -763,6 +774,7 @@ int main(void)
     RUN_TEST(test_same_input_same_bytes_in_any_locale);
     RUN_TEST(test_nothing_is_allocated);
     RUN_TEST(test_heading_and_list);
+    RUN_TEST(test_further_items_of_a_heading);
     RUN_TEST(test_quantities_of_a_page);
     RUN_TEST(test_text_is_escaped);
     RUN_TEST(test_numbers_of_an_axis);

@@ -12,8 +12,9 @@
 
 const char *hci_tuning_part_name(hci_tuning_part part)
 {
-    static const char *const NAMES[] = {"What was read",     "What was found",      "What was solved for",
-                                        "What is not known", "What to record next", "Into the drive"};
+    static const char *const NAMES[] = {"Before it is used",   "What was read",     "What was found",
+                                        "What was solved for", "What is not known", "What to record next",
+                                        "Into the drive"};
     return NAMES[part];
 }
 
@@ -65,7 +66,7 @@ static void show_before_and_after(const hci_solution_page *page, double table_Nm
 static void say_remark(hci_output *out, const hci_tuning *t)
 {
     const hci_solution *s = t->solution;
-    if (s->remark.text[0] && !(s->corrections[0] && strstr(t->heading, s->corrections)))
+    if (s->remark.text[0] && !(s->corrections[0] && strstr(t->part[HCI_TUNING_CAVEATS], s->corrections)))
         hci_html_paragraph(out, "quiet", s->remark.text);
 }
 
@@ -178,6 +179,7 @@ void hci_page_tuning(hci_output *out, const hci_tuning *t)
 {
     hci_solution_page p = {.out = out, .solution = t->solution, .origin = "currents"};
     hci_html_begin(out, &(hci_html_opening){"From a log to a table", t->verdict, t->heading, t->good});
+    hci_html_also(out, t->part[HCI_TUNING_CAVEATS]);
     if (t->solution) {
         hci_plot_solution_facts(t->solution, &p.facts);
         p.is_cut = t->table_Nm > 0.0;
@@ -192,7 +194,7 @@ void hci_page_tuning(hci_output *out, const hci_tuning *t)
         hci_html_evidence(out);
         show_log(out, t);
     }
-    for (int k = 0; k < HCI_TUNING_PARTS; ++k)
+    for (int k = HCI_TUNING_READ; k < HCI_TUNING_PARTS; ++k)
         show_part(out, t, (hci_tuning_part)k);
     hci_html_fold(out, "The commands, to do it again step by step");
     say_lines(out, t->commands);

@@ -136,7 +136,8 @@ static void put_solution(hci_json *json, const hci_tuning *t)
 
 char *hci_tuning_json(const hci_tuning *t)
 {
-    static const char *const KEYS[] = {"read", "found", "wanted", "unknown", "measure_next", "load"};
+    static const char *const KEYS[] = {"caveats", "read",         "found", "wanted",
+                                       "unknown", "measure_next", "load"};
     hci_json json;
     hci_summary_begin(&json, "tune");
     hci_json_bool(&json, "good", t->good);

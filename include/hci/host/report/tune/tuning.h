@@ -11,6 +11,8 @@ extern "C" {
 
 /* Parts of the report, in their order. */
 typedef enum {
+    HCI_TUNING_CAVEATS, /* what the heading hangs on, and what else one has to know before the table is used
+                         */
     HCI_TUNING_READ,    /* what was read, and how it was taken */
     HCI_TUNING_FOUND,   /* values with their standard errors */
     HCI_TUNING_WANTED,  /* the torque that was solved for, and why that */
