@@ -61,7 +61,8 @@ int hci_sequence_of_order(double order);
 /* Σ A sin(nθ + γ) at one electrical angle. terms: count entries, may be NULL when count is 0. O(count). */
 double hci_harmonics_at(const hci_harmonic *terms, size_t count, double theta_rad);
 
-/* x_a, x_b, x_c at one electrical angle. O(count). */
+/* x_a, x_b, x_c at one electrical angle. O(count); as of hci_harmonics_at, least where the orders rise by the
+ * same step, whose sine and cosine are taken once. */
 void hci_waves_at(const hci_wave *waves, size_t count, double theta_rad, double abc[3]);
 
 /* Joins waves of equal order and sequence in place, ascending by order, and drops those that are no larger

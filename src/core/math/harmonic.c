@@ -5,6 +5,7 @@
 
 #include "core/math/phases.h"
 #include "core/math/sort.h"
+#include "core/math/turning.h"
 
 double hci_amplitude(double sine, double cosine)
 {
@@ -38,24 +39,29 @@ int hci_sequence_of_order(double order)
 
 double hci_harmonics_at(const hci_harmonic *terms, size_t count, double theta_rad)
 {
+    hci_turning at = HCI_TURNING;
     double sum = 0.0;
     for (size_t k = 0; k < count; ++k) {
-        const double angle = terms[k].order * theta_rad;
-        sum += terms[k].sine * sin(angle) + terms[k].cosine * cos(angle);
+        hci_turning_to(&at, terms[k].order, theta_rad);
+        sum += terms[k].sine * at.s + terms[k].cosine * at.c;
     }
     return sum;
 }
 
-/* x = S sin nθ + C cos nθ, and a quarter of a period ahead y = S cos nθ − C sin nθ. */
+/* x = S sin nθ + C cos nθ, and a quarter of a period ahead y = S cos nθ − C sin nθ, of each sequence. */
 void hci_waves_at(const hci_wave *waves, size_t count, double theta_rad, double abc[3])
 {
-    abc[0] = abc[1] = abc[2] = 0.0;
+    hci_turning at = HCI_TURNING;
+    double x[3] = {0.0, 0.0, 0.0}, y[3] = {0.0, 0.0, 0.0};
     for (size_t k = 0; k < count; ++k) {
-        const double angle_rad = waves[k].order * theta_rad, s = sin(angle_rad), c = cos(angle_rad);
-        const double x = waves[k].sine * s + waves[k].cosine * c;
-        const double y = waves[k].sine * c - waves[k].cosine * s;
-        hci_phases_add(x, y, waves[k].sequence, abc);
+        const hci_wave *w = &waves[k];
+        hci_turning_to(&at, w->order, theta_rad);
+        x[w->sequence + 1] += w->sine * at.s + w->cosine * at.c;
+        y[w->sequence + 1] += w->sine * at.c - w->cosine * at.s;
     }
+    abc[0] = abc[1] = abc[2] = 0.0;
+    for (int sequence = -1; sequence <= 1; ++sequence)
+        hci_phases_add(x[sequence + 1], y[sequence + 1], sequence, abc);
 }
 
 static bool comes_after(const hci_wave *a, const hci_wave *b)

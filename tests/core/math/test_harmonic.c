@@ -122,6 +122,31 @@ static void test_waves_at_is_the_sine_formula_in_each_phase(void)
     }
 }
 
+/* Orders of five electrical turns, as a table of one mechanical turn has them, each of which follows from the
+ * one before it: the products of order and angle alone are off by 2e-12. */
+static void test_a_thousand_orders_stay_as_exact_as_their_angles(void)
+{
+    enum { COUNT = 1500 };
+    static hci_wave list[COUNT];
+    static hci_harmonic terms[COUNT];
+    uint64_t seed = 4;
+    for (int k = 0; k < COUNT; ++k) {
+        list[k] = (hci_wave){k / 5.0, k % 2 ? 1 : -1, 1.0, 0.0};
+        terms[k] = (hci_harmonic){k / 5.0, 0.0, 1.0};
+    }
+    for (int trial = 0; trial < 20; ++trial) {
+        const double theta = ref_uniform(&seed, 0.0, 10.0 * REF_PI);
+        double abc[3], sine = 0.0, cosine = 0.0;
+        for (int k = 0; k < COUNT; ++k) {
+            sine += sin(k / 5.0 * theta);
+            cosine += cos(k / 5.0 * theta);
+        }
+        hci_waves_at(list, COUNT, theta, abc);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-10, sine, abc[0]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-10, cosine, hci_harmonics_at(terms, COUNT, theta));
+    }
+}
+
 static void test_no_waves_are_zero(void)
 {
     double abc[3] = {1.0, 1.0, 1.0};
@@ -212,6 +237,7 @@ int main(void)
     RUN_TEST(test_sequence_of_order_describes_a_shifted_waveform);
     RUN_TEST(test_harmonics_at_is_the_sum_of_sines);
     RUN_TEST(test_waves_at_is_the_sine_formula_in_each_phase);
+    RUN_TEST(test_a_thousand_orders_stay_as_exact_as_their_angles);
     RUN_TEST(test_no_waves_are_zero);
     RUN_TEST(test_mean_square_is_the_average_of_the_samples);
     RUN_TEST(test_mean_square_of_known_currents);

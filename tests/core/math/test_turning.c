@@ -48,10 +48,48 @@ static void test_even_steps_back_and_fractions(void)
     is_right(k, 44);
 }
 
+/* Their differences are not equal to the last bit: one rotation does for all of them all the same. */
+static void test_fifths_need_one_rotation(void)
+{
+    double k[40];
+    hci_turning turning = HCI_TURNING;
+    for (int j = 0; j < 40; ++j) {
+        k[j] = (j + 1) / 5.0;
+        hci_turning_to(&turning, k[j], 0.7);
+        TEST_ASSERT_EQUAL_INT(1, turning.next);
+    }
+    is_right(k, 40);
+}
+
+/* Three kinds of steps and more, of which two are known at a time. */
+static void test_errors_do_not_multiply(void)
+{
+    double k[1500], last = 0.0;
+    uint64_t seed = 5;
+    for (int j = 0; j < 1500; ++j)
+        k[j] = last += ref_integer(&seed, 1, 4) / 8.0;
+    for (int trial = 0; trial < 20; ++trial) {
+        const double angle = ref_uniform(&seed, -30.0, 30.0);
+        hci_turning turning = HCI_TURNING;
+        for (size_t j = 0; j < 1500; ++j) {
+            hci_turning_to(&turning, k[j], angle);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-11, sin(k[j] * angle), turning.s);
+        }
+    }
+}
+
+static void test_a_step_of_rounding_from_the_beginning(void)
+{
+    is_right((double[]){1e-15, 1.0}, 2);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_orders_of_a_back_emf);
     RUN_TEST(test_even_steps_back_and_fractions);
+    RUN_TEST(test_fifths_need_one_rotation);
+    RUN_TEST(test_errors_do_not_multiply);
+    RUN_TEST(test_a_step_of_rounding_from_the_beginning);
     return UNITY_END();
 }
