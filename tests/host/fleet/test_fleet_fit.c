@@ -26,17 +26,22 @@ static const hci_fleet_parameter *parameter(const char *effect, const char *name
     return NULL;
 }
 
-/* Three turns there and back; friction of 0.05 N·m and a phase a that makes a tenth more. */
-static void fit_at(double iq_A)
+/* Three turns there and back; friction of 0.05 N·m and a phase a that makes more by a share. */
+static void fit_share(double iq_A, double share)
 {
     const hci_effects none = {NULL, 0};
     hci_note note = {{0}};
     for (int k = 0; k < 2; ++k) {
         record(900, &(point){k ? -60.0 : 60.0, iq_A, 0.0, k ? -0.05 : 0.05, 0.0});
         for (size_t j = 0; j < 900; ++j)
-            run[k].torque_Nm[j] += 0.1 * K_NM_PER_A * sin(P * run[k].theta_m_rad[j]) * run[k].i_A[3 * j];
+            run[k].torque_Nm[j] += share * K_NM_PER_A * sin(P * run[k].theta_m_rad[j]) * run[k].i_A[3 * j];
     }
     TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_fleet_fit_runs(&machine, &none, &runs, &fit, &note), note.text);
+}
+
+static void fit_at(double iq_A)
+{
+    fit_share(iq_A, 0.1);
     TEST_ASSERT_TRUE(fit.is_found);
 }
 
@@ -62,10 +67,31 @@ static void test_hardly_a_current_tells_no_phase(void)
         TEST_ASSERT_TRUE_MESSAGE(isnan(parameter("phase_imbalance", PHASE[k])->value), PHASE[k]);
 }
 
+/* Shares of 0.2 are expected, and six times that of no motor. */
+static void test_a_share_that_no_motor_has(void)
+{
+    fit_share(9.0, 1.15);
+    TEST_ASSERT_TRUE(fit.is_found);
+    TEST_ASSERT_EQUAL_STRING("", fit.remark.text);
+    runs.count = 0;
+    for (int k = 0; k < 2; ++k)
+        rec_release(&run[k]);
+    fit_share(9.0, 1.25);
+    TEST_ASSERT_FALSE(fit.is_found);
+    TEST_ASSERT_EQUAL_STRING(
+        "the least error asks for more phase_imbalance than any motor has, and the declared values stay: the "
+        "wiring, the columns or the pole pairs are others than of the machine folder; `check` the recordings",
+        fit.remark.text);
+    TEST_ASSERT_EQUAL_DOUBLE(fit.rms_before_Nm, fit.rms_after_Nm);
+    TEST_ASSERT_TRUE(isnan(parameter("friction", "coulomb")->value));
+    TEST_ASSERT_TRUE(isnan(parameter("phase_imbalance", "c")->std_error));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_load_tells_the_phases);
     RUN_TEST(test_hardly_a_current_tells_no_phase);
+    RUN_TEST(test_a_share_that_no_motor_has);
     return UNITY_END();
 }
