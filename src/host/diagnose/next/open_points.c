@@ -15,23 +15,20 @@ enum { ANGLES = 64 };
 #define MUCH_MORE 5.0 /* times the spread at the recorded points, from which on a point is worth a run */
 #define TOGETHER  0.5 /* correlation of two terms, one of which takes from the other */
 
-/* by_value[ANGLES][terms], without its mean over the angles; ripple[machines]: mean square over the angles.
- */
+/* by_value[ANGLES][terms], without its mean over the angles. */
 typedef struct {
     const hci_machine *machine;
     const hci_uncertainty *uncertainty;
     size_t terms;
-    double *by_value, *ripple;
+    double *by_value;
 } differing;
 
 static hci_status differing_make(const hci_machine *machine, const hci_uncertainty *u, differing *x,
                                  hci_note *note)
 {
-    *x = (differing){machine, u, hci_effects_terms(&u->effects.list), NULL, NULL};
-    x->by_value = hci_memory_new(ANGLES * x->terms + u->machines, sizeof *x->by_value);
-    if (!x->by_value) return hci_note_memory(note, NULL, "what to measure next");
-    x->ripple = x->by_value + ANGLES * x->terms;
-    return HCI_OK;
+    *x = (differing){machine, u, hci_effects_terms(&u->effects.list), NULL};
+    x->by_value = hci_memory_new(ANGLES * x->terms + 1, sizeof *x->by_value);
+    return x->by_value ? HCI_OK : hci_note_memory(note, NULL, "what to measure next");
 }
 
 /* ---- one operating point ---- */
@@ -149,7 +146,6 @@ static void names_fill(const differing *x, hci_open_point *out)
 {
     const size_t twin = largest_of(x, false, x->terms);
     const size_t found = twin < x->terms ? largest_of(x, true, twin) : x->terms;
-    out->found[0] = out->twin[0] = '\0';
     if (found == x->terms) return;
     name_fill(x, found, out->found);
     name_fill(x, twin, out->twin);
@@ -163,15 +159,6 @@ static double chi_square_of(const differing *x, const hci_playable *playable, do
     return HCI_LEAST_TURNS * turn * spread_Nm * spread_Nm / (playable->noise_Nm * playable->noise_Nm);
 }
 
-/* The first of the points up to one that has its currents. */
-static size_t same_currents(const hci_operating_point *point, size_t at)
-{
-    size_t k = 0;
-    while (k < at && (point[k].id_A != point[at].id_A || point[k].iq_A != point[at].iq_A))
-        ++k;
-    return k;
-}
-
 /* The point that tells most, which is one of a large current; of points alike the slow one forward. */
 static bool choose(const differing *x, const hci_playable *playable, hci_open_point *out)
 {
@@ -179,14 +166,12 @@ static bool choose(const differing *x, const hci_playable *playable, hci_open_po
     const size_t count = hci_operating_points(playable, point);
     const double least_Nm = MUCH_MORE * spread_recorded(x);
     *out = (hci_open_point){.chi_square = HCI_TELLS};
-    double spread_Nm[HCI_OPERATING_POINTS];
     bool any = false;
     for (size_t k = 0; k < count; ++k) {
-        const size_t same = same_currents(point, k);
-        spread_Nm[k] = same < k ? spread_Nm[same] : spread_at(x, point[k].id_A, point[k].iq_A);
-        const double chi_square = chi_square_of(x, playable, spread_Nm[k]);
-        if (!(spread_Nm[k] > least_Nm && chi_square > (1.0 + 1e-9) * out->chi_square)) continue;
-        *out = (hci_open_point){.point = k, .spread_Nm = spread_Nm[k], .chi_square = chi_square};
+        const double spread_Nm = spread_at(x, point[k].id_A, point[k].iq_A);
+        const double chi_square = chi_square_of(x, playable, spread_Nm);
+        if (!(spread_Nm > least_Nm && chi_square > (1.0 + 1e-9) * out->chi_square)) continue;
+        *out = (hci_open_point){.point = k, .spread_Nm = spread_Nm, .chi_square = chi_square};
         any = true;
     }
     if (any) spread_at(x, point[out->point].id_A, point[out->point].iq_A);

@@ -10,8 +10,8 @@
 #include "support/effect_list.h"
 #include "unity.h"
 
-/* Terms: cogging sine of order 6, cosine of order 12, back-EMF of order 5 and 7, sines; machines. */
-enum { TERMS = 4, MACHINES = 3 };
+/* Back-EMF of orders 1, 5 and 7, sines; cogging torque of order 6, sine, and of order 12, cosine. */
+enum { EMF_1, EMF_5, EMF_7, SINE_6, COSINE_12, TERMS, MACHINES = 3 };
 
 static const hci_machine MACHINE = {.pole_pairs = 3};
 
@@ -29,10 +29,11 @@ void setUp(void)
     memset(&effects, 0, sizeof effects);
     memset(&uncertainty, 0, sizeof uncertainty);
     memset(&found, 0, sizeof found);
-    el_add(&effects, "cogging", "sine", 6.0, 0.02);
-    el_add(&effects, "cogging", "cosine", 12.0, 0.0);
+    el_add(&effects, "back_emf", "sine", 1.0, 0.03);
     el_add(&effects, "back_emf", "sine", 5.0, 0.01);
     el_add(&effects, "back_emf", "sine", 7.0, 0.0);
+    el_add(&effects, "cogging", "sine", 6.0, 0.02);
+    el_add(&effects, "cogging", "cosine", 12.0, 0.0);
     uncertainty.effects.list = effects.list;
     uncertainty.departure = departure[0];
     uncertainty.machines = MACHINES;
@@ -58,22 +59,19 @@ static bool find(void)
     return is_found;
 }
 
-/* Back-EMFs of orders 5, backward, and 7, forward, make ripples of order 6: with i_s = q sin(θ − s) − d cos(θ
- * − s),
- *
- *     Σ sin(5(θ − s)) i_s = 3/2 (q cos 6θ + d sin 6θ)·(−1, +1 …)
- *
- * taken here as sums over the phases; mean square over a turn of what the machines differ by. */
+/* Mean square of what the machines differ by about its mean over a turn, with i_s = q sin(θ − s) − d cos(θ −
+ * s). A back-EMF of order 1 makes a mean alone. */
 static double spread_of(double id_A, double iq_A)
 {
     double sum = 0.0;
     for (size_t m = 0; m < MACHINES; ++m)
         for (int k = 0; k < 96; ++k) {
             const double theta = 2.0 * REF_PI * k / 96.0;
-            double torque = departure[0][m] * sin(6.0 * theta) + departure[1][m] * cos(12.0 * theta);
+            double torque =
+                departure[SINE_6][m] * sin(6.0 * theta) + departure[COSINE_12][m] * cos(12.0 * theta);
             for (int s = 0; s < 3; ++s) {
                 const double x = theta - 2.0 * REF_PI * s / 3.0, i_A = iq_A * sin(x) - id_A * cos(x);
-                torque += (departure[2][m] * sin(5.0 * x) + departure[3][m] * sin(7.0 * x)) * i_A;
+                torque += (departure[EMF_5][m] * sin(5.0 * x) + departure[EMF_7][m] * sin(7.0 * x)) * i_A;
             }
             sum += torque * torque / (96.0 * MACHINES);
         }
@@ -88,8 +86,11 @@ static double chi_square_of(double spread_Nm)
 
 static void depart(void)
 {
-    static const double BY[TERMS][MACHINES] = {
-        {0.001, -0.002, 0.0015}, {-0.0005, 0.001, 0.002}, {0.003, 0.001, -0.002}, {0.002, -0.001, 0.0025}};
+    static const double BY[TERMS][MACHINES] = {{0.01, -0.02, 0.03},
+                                               {0.003, 0.001, -0.002},
+                                               {0.002, -0.001, 0.0025},
+                                               {0.001, -0.002, 0.0015},
+                                               {-0.0005, 0.001, 0.002}};
     memcpy(departure, BY, sizeof departure);
 }
 
@@ -116,7 +117,7 @@ static void test_points_beside_what_was_recorded(void)
 {
     const size_t count = hci_operating_points(&playable, point);
     double most_Nm = 0.0;
-    departure[2][0] = 0.003; /* in proportion to the current */
+    departure[EMF_5][0] = 0.003; /* in proportion to the current */
     for (size_t k = 0; k < count; ++k)
         most_Nm = fmax(most_Nm, spread_of(point[k].id_A, point[k].iq_A));
     const double per_A = spread_of(0.0, 1.0), border_A = most_Nm / per_A / 5.0;
@@ -124,8 +125,8 @@ static void test_points_beside_what_was_recorded(void)
     for (int worth = 0; worth < 2; ++worth) {
         const double q_A = border_A * (worth ? 0.99 : 1.01) * 0.8,
                      d_A = -border_A * (worth ? 0.99 : 1.01) * 0.6;
-        measured[0] = (hci_measured_run){.id_A = {d_A - 1.0, d_A + 1.0}, .iq_A = {q_A - 0.5, q_A + 0.5}};
-        measured[1] = (hci_measured_run){.id_A = {0.1, 0.2}, .iq_A = {0.1, 0.2}};
+        measured[1] = (hci_measured_run){.id_A = {d_A - 1.0, d_A + 1.0}, .iq_A = {q_A - 0.5, q_A + 0.5}};
+        measured[0] = (hci_measured_run){.id_A = {0.1, 0.2}, .iq_A = {0.1, 0.2}};
         TEST_ASSERT_EQUAL(worth, find());
     }
 }
@@ -133,10 +134,10 @@ static void test_points_beside_what_was_recorded(void)
 /* What takes a spread from noise is χ² of so many turns. */
 static void test_a_point_has_to_tell(void)
 {
-    departure[0][1] = 0.001;
+    departure[SINE_6][1] = 0.001;
     const double told = sqrt(HCI_TELLS / chi_square_of(spread_of(0.0, 0.0)));
     for (int tells = 0; tells < 2; ++tells) {
-        departure[0][1] = 0.001 * told * (tells ? 1.001 : 0.999);
+        departure[SINE_6][1] = 0.001 * told * (tells ? 1.001 : 0.999);
         TEST_ASSERT_EQUAL(tells, find());
     }
 }
@@ -146,12 +147,12 @@ static void test_which_terms_stand_for_each_other(void)
 {
     static const double A[MACHINES] = {0.004, -0.003, 0.002};
     for (size_t m = 0; m < MACHINES; ++m) {
-        departure[1][m] = A[m];
-        departure[2][m] = -0.1 * A[m];
-        departure[3][m] = 0.01 * A[m];
+        departure[COSINE_12][m] = A[m];
+        departure[EMF_5][m] = -0.1 * A[m];
+        departure[EMF_7][m] = 0.01 * A[m];
     }
-    departure[0][0] = 0.003; /* another direction: (3, 4) is at right angles to (4, −3) */
-    departure[0][1] = 0.004;
+    departure[SINE_6][0] = 0.003; /* another direction: (3, 4) is at right angles to (4, −3) */
+    departure[SINE_6][1] = 0.004;
     TEST_ASSERT_TRUE(find());
     TEST_ASSERT_EQUAL_STRING("cogging cosine_12", found.twin);
     TEST_ASSERT_EQUAL_STRING("back_emf sine_5", found.found);
@@ -163,15 +164,15 @@ static void test_terms_that_hardly_go_together(void)
     for (int together = 0; together < 2; ++together) {
         const double c = together ? 0.505 : 0.495;
         memset(departure, 0, sizeof departure);
-        departure[1][0] = 0.004;
-        departure[0][0] = 0.001 * c;
-        departure[0][2] = 0.001 * sqrt(1.0 - c * c);
+        departure[COSINE_12][0] = 0.004;
+        departure[SINE_6][0] = 0.001 * c;
+        departure[SINE_6][2] = 0.001 * sqrt(1.0 - c * c);
         TEST_ASSERT_TRUE(find());
         TEST_ASSERT_EQUAL_STRING(together ? "cogging sine_6" : "", found.found);
         TEST_ASSERT_EQUAL_STRING(together ? "cogging cosine_12" : "", found.twin);
     }
     memset(departure, 0, sizeof departure);
-    departure[0][0] = 0.004;
+    departure[SINE_6][0] = 0.004;
     TEST_ASSERT_TRUE(find());
     TEST_ASSERT_EQUAL_STRING("", found.found);
     TEST_ASSERT_EQUAL_STRING("", found.twin);
