@@ -136,6 +136,20 @@ static void test_load_and_teeth_that_agree(void)
     }
 }
 
+/* What is constant in each run says nothing, of parts of a turn and whatever they weigh: without a load the
+ * cogging torque would ask for magnets that differ. */
+static void test_a_constant_says_nothing(void)
+{
+    for (size_t r = 0; r < RUNS; ++r)
+        for (size_t k = N * r; k < N * (r + 1); ++k) {
+            sample[k].reading.theta_m_rad = 1.7 * (double)(k % N) / N;
+            memset(sample[k].reading.i_abc, 0, sizeof sample[k].reading.i_abc);
+            variance[k] = 1e-6 * (double)(1 + k % 3);
+            residual_Nm[k] = r == 1 ? 3.0 : -2.0;
+        }
+    TEST_ASSERT_EQUAL_UINT64(0, find(true));
+}
+
 /* ---- one gain ---- */
 
 /* load·e·i + teeth·T_cog. */
@@ -185,6 +199,7 @@ int main(void)
     RUN_TEST(test_the_strongest_come_first);
     RUN_TEST(test_what_stands_out);
     RUN_TEST(test_load_and_teeth_that_agree);
+    RUN_TEST(test_a_constant_says_nothing);
     RUN_TEST(test_gains_that_are_one);
     RUN_TEST(test_gains_that_stand_out);
     return UNITY_END();
