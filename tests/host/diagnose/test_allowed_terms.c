@@ -145,7 +145,7 @@ static void test_how_far_the_series_goes(void)
     hci_candidate *x = fit("saturation", "d0q4_cosine", 0.0, 0.001);
     TEST_ASSERT_EQUAL_INT(8, highest_power());
     TEST_ASSERT_DOUBLE_WITHIN(2.0, 48.0, highest_order());
-    x->coenergy_unit = 0.5;
+    x->coenergy_unit = 0.1;
     TEST_ASSERT_DOUBLE_WITHIN(2.0, 96.0, highest_order());
     x->in = false;
     TEST_ASSERT_EQUAL_INT(4, highest_power());
@@ -279,6 +279,55 @@ static void test_what_was_found_at_an_order(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-15, -3e-5, terms.centre[at]);
 }
 
+/* Where iron saturates, all that grows as a square or a higher power is by the width, and so is what came in
+ * with a whole co-energy and an expectation of its own. */
+static void test_what_is_by_the_width(void)
+{
+    size_t at;
+    fit("friction", "coulomb", 0.0, 0.05);
+    hci_candidate *whole = fit("back_emf", "sine", 5.0, 0.002);
+    make();
+    (void)find("back_emf", "sine", 5.0, &at);
+    TEST_ASSERT_FALSE(isnan(terms.fixed[at]));
+    whole->coenergy_unit = 0.1;
+    make();
+    (void)find("back_emf", "sine", 5.0, &at);
+    TEST_ASSERT_FALSE(isnan(terms.fixed[at]));
+    whole->deviation = 0.1;
+    make();
+    (void)find("back_emf", "sine", 5.0, &at);
+    TEST_ASSERT_TRUE(isnan(terms.fixed[at]));
+    fit("reluctance", "dd_cosine", 6.0, 4e-5);
+    fit("cogging", "sine", 6.0, 0.01);
+    fit("saturation", "d0q4_cosine", 6.0, 0.001);
+    make();
+    (void)find("reluctance", "dd_cosine", 6.0, &at);
+    TEST_ASSERT_TRUE(isnan(terms.fixed[at]));
+    (void)find("saturation", "d0q4_cosine", 6.0, &at);
+    TEST_ASSERT_TRUE(isnan(terms.fixed[at]));
+    (void)find("cogging", "sine", 6.0, &at);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, terms.fixed[at]);
+}
+
+/* The root of the mean square of what was found at several orders, of squares for squares. */
+static void test_the_usual_size_of_several_orders(void)
+{
+    size_t at;
+    fit("reluctance", "dd_cosine", 6.0, 4e-5);
+    fit("reluctance", "dd_cosine", 12.0, 3e-5);
+    fit("back_emf", "sine", 5.0, 0.002);
+    make();
+    const double a = 4e-5 / find("reluctance", "dd_cosine", 6.0, &at)->coenergy_unit,
+                 b = 3e-5 / find("reluctance", "dd_cosine", 12.0, &at)->coenergy_unit,
+                 c = fmax(a, 0.002 / find("back_emf", "sine", 5.0, &at)->coenergy_unit);
+    const hci_candidate *x = find("reluctance", "qq_cosine", 12.0, &at);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9 * terms.twin[at], x->coenergy_unit * sqrt(0.5 * (a * a + b * b)),
+                              terms.twin[at]);
+    x = find("back_emf", "sine", 7.0, &at);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9 * terms.twin[at], x->coenergy_unit * sqrt(0.5 * (c * c + b * b)),
+                              terms.twin[at]);
+}
+
 /* ---- precisions ---- */
 
 /* One over the larger of the width and of the twins' size, squared; what is fixed and known narrows further.
@@ -323,6 +372,8 @@ int main(void)
     RUN_TEST(test_what_is_usual_of_the_mean);
     RUN_TEST(test_terms_of_the_model);
     RUN_TEST(test_what_was_found_at_an_order);
+    RUN_TEST(test_what_is_by_the_width);
+    RUN_TEST(test_the_usual_size_of_several_orders);
     RUN_TEST(test_precisions);
     return UNITY_END();
 }
