@@ -21,6 +21,7 @@ static void test_four_numbers(void)
     TEST_ASSERT_EQUAL_DOUBLE(2.0, hci_mean(X, 4));
     TEST_ASSERT_EQUAL_DOUBLE((1.0 + 9.0 + 0.0 + 4.0) / 4.0, hci_mean_square_about(X, 4, 2.0));
     TEST_ASSERT_EQUAL_DOUBLE((9.0 + 1.0 + 4.0 + 16.0) / 4.0, hci_mean_square_about(X, 4, 0.0));
+    TEST_ASSERT_EQUAL_DOUBLE((4.0 + 4.0 + 1.0 + 9.0) / 4.0, hci_mean_square_about(X, 4, 1.0));
     TEST_ASSERT_EQUAL_DOUBLE(5.0, hci_peak_to_peak(X, 4));
 }
 
@@ -41,6 +42,34 @@ static void test_the_median(void)
     for (int k = 0; k < 101; ++k)
         many[k] = (k * 37) % 101;
     TEST_ASSERT_EQUAL_DOUBLE(50.0, hci_median(many, 101));
+}
+
+/* Of random numbers, of which some are the same: as many are below as above, or one more below. */
+static void test_medians_of_random_numbers(void)
+{
+    uint64_t state = 9;
+    for (int trial = 0; trial < 300; ++trial) {
+        double x[40], copy[40];
+        const int n = ref_integer(&state, 1, 40), kinds = ref_integer(&state, 1, 60);
+        int below = 0, same = 0;
+        for (int k = 0; k < n; ++k)
+            copy[k] = x[k] = (double)ref_integer(&state, -kinds, kinds);
+        const double median = hci_median(x, (size_t)n);
+        for (int k = 0; k < n; ++k)
+            below += copy[k] < median, same += copy[k] == median;
+        TEST_ASSERT_TRUE(same > 0 && below <= n / 2 && below + same > n / 2);
+    }
+}
+
+/* The least change of the slope that is more than rounding. */
+static void test_the_quantum(void)
+{
+    const double x[] = {0.0, 3.0, 6.0, 9.5, 13.0, 16.3, 19.6, 22.9};
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.2, hci_quantum(x, 8, 1e-6));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.5, hci_quantum(x, 8, 0.3));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.5, hci_quantum(x, 5, 1e-6));
+    TEST_ASSERT_EQUAL_DOUBLE(0.7, hci_quantum(x, 8, 0.7));
+    TEST_ASSERT_EQUAL_DOUBLE(0.7, hci_quantum(x, 2, 0.7));
 }
 
 /* Turns of an encoder of 16384 counts, written to 1e-5 of a turn: second differences are whole counts within
@@ -68,6 +97,8 @@ int main(void)
     RUN_TEST(test_four_numbers);
     RUN_TEST(test_one_number);
     RUN_TEST(test_the_median);
+    RUN_TEST(test_medians_of_random_numbers);
+    RUN_TEST(test_the_quantum);
     RUN_TEST(test_the_step_of_counts);
     return UNITY_END();
 }

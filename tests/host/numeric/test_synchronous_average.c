@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "host/base/memory.h"
+#include "support/least_squares.h"
 #include "support/reference.h"
 #include "unity.h"
 
@@ -192,6 +193,72 @@ static void test_many_samples(void)
     }
 }
 
+/* ---- what no polynomial describes ---- */
+
+enum { LOW = 3, WAVES = 2 * LOW + 1 };
+
+/* Least squares of `n` means at ascending angles of one turn, each with the weight of half the way between
+ * its neighbours, by Gauss and Jordan: S_1, C_1, S_2, …, and the mean last. */
+static void weighted_fit(const double *at, const double *value_of, size_t n, double out[WAVES])
+{
+    double a[WAVES][WAVES + 1] = {{0.0}};
+    for (size_t k = 0; k < n; ++k) {
+        const double before = k > 0 ? at[k - 1] : at[n - 1] - 2.0 * REF_PI,
+                     after = k + 1 < n ? at[k + 1] : at[0] + 2.0 * REF_PI;
+        double row[WAVES + 1] = {0.0};
+        for (int m = 1; m <= LOW; ++m)
+            row[2 * m - 2] = sin(m * at[k]), row[2 * m - 1] = cos(m * at[k]);
+        row[WAVES - 1] = 1.0;
+        row[WAVES] = value_of[k];
+        for (int i = 0; i < WAVES; ++i)
+            for (int j = 0; j <= WAVES; ++j)
+                a[i][j] += (after - before) * row[i] * row[j];
+    }
+    ref_reduce(&a[0][0], WAVES, WAVES + 1, WAVES + 1);
+    for (int i = 0; i < WAVES; ++i)
+        out[i] = a[i][WAVES];
+}
+
+/* Noise of one turn forward or backward, of which two neighbours in a cell are one: their mean, at their mean
+ * angle. Cells are a 64th of the highest order that is asked for, and the mean. */
+static void test_noise_is_fitted_by_weights(void)
+{
+    enum { N = 60 };
+    uint64_t seed = 6;
+    for (int direction = -1; direction <= 1; direction += 2) {
+        double at[N], mean_of[N], fitted[WAVES];
+        const double cell = 2.0 * REF_PI / (64.0 * (LOW + 1));
+        count = 0;
+        for (size_t k = 0; k < N; ++k) {
+            const size_t row = direction > 0 ? k : N - 1 - k;
+            at[k] = cell * (floor(4.2 * (double)k + ref_uniform(&seed, 0.0, 1.6)) + 0.5);
+            mean_of[k] = ref_normal(&seed);
+            angle[row] = at[k] + 4.0 * REF_PI * direction;
+            value[CHANNELS * row] = 2.0;
+            value[CHANNELS * row + 1] = mean_of[k];
+        }
+        count = N;
+        if (direction > 0) { /* the last of them twice, apart by less than its cell */
+            angle[N - 1] -= 0.2 * cell;
+            angle[N] = angle[N - 1] + 0.5 * cell;
+            value[CHANNELS * N] = 2.0;
+            value[CHANNELS * N + 1] = mean_of[N - 1] + 3.0;
+            at[N - 1] += 0.05 * cell;
+            mean_of[N - 1] += 1.5;
+            ++count;
+        }
+        weighted_fit(at, mean_of, N, fitted);
+        TEST_ASSERT_EQUAL(HCI_OK, fit(LOW, LOW, LOW));
+        TEST_ASSERT_EQUAL(1, average.count);
+        TEST_ASSERT_EQUAL(direction, average.pass[0].direction);
+        for (size_t m = 0; m <= LOW; ++m) {
+            const hci_average_harmonic *found = hci_average_at(&average, 0, 1, m);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-7, m > 0 ? fitted[2 * m - 2] : 0.0, found->sine);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-7, m > 0 ? fitted[2 * m - 1] : fitted[WAVES - 1], found->cosine);
+        }
+    }
+}
+
 static void test_memory_that_is_short(void)
 {
     go(0.0, 13.0, 40.0, 1);
@@ -217,6 +284,7 @@ int main(void)
     RUN_TEST(test_samples_in_no_order);
     RUN_TEST(test_what_tells_no_orders);
     RUN_TEST(test_many_samples);
+    RUN_TEST(test_noise_is_fitted_by_weights);
     RUN_TEST(test_memory_that_is_short);
     return UNITY_END();
 }
