@@ -281,9 +281,9 @@ static void fit(const comparison *c, hci_table_rotation *x)
     if (x->backwards || x->left < LESSENED * x->left_as_is || x->left >= FOUND) return;
     x->rotation_rad = 0.0; /* what mends nothing is no rotation */
     x->gain = gain_at(c, 0.0, false, &x->left);
-    for (int k = 0; k < 2; ++k)
-        refine(c, x);
+    refine(c, x); /* its error */
     x->rotation_rad = 0.0;
+    x->gain = gain_at(c, 0.0, false, &x->left);
 }
 
 /* The same in the frame of the recorded angle, if that can leave less than the phases. */
