@@ -12,6 +12,7 @@
 #include "cli/tune/tune_recorded.h"
 #include "cli/tune/tune_size.h"
 #include "cli/tune/tune_suspect.h"
+#include "hci/host/waveform/turning_load.h"
 
 /* What a figure of the model leaves open. */
 static const char *not_known(const cli_tuning *t)
@@ -166,6 +167,32 @@ static void append(cli_tuning *t, const char *format, ...)
     va_end(values);
     if (words[0] && words[1] != '_') words[0] = (char)toupper((unsigned char)words[0]);
     hci_tuning_say(&t->tuning, HCI_TUNING_CAVEATS, "%s", words);
+}
+
+/* Of the bound, or of the ripple where there is none, that order 1 may be and not be spoken of. */
+#define MUCH_OF_ZEROS 0.1
+
+/* Order 1 that may be of the current sensors: a table that takes it away adds it where they are right, and
+ * one that leaves it to them leaves it where it is cogging torque. */
+static void append_of_zeros(cli_tuning *t)
+{
+    const double zero_Nm = t->diagnosis.uncertainty.origin.sensor_zero_Nm,
+                 zero_A = zero_Nm / t->reading.run.torque_constant_Nm_per_A;
+    const hci_expected_ripple *e = &t->solution.expected;
+    double before_Nm, after_Nm;
+    if (!t->is_solved) return;
+    hci_tuning_swing(&t->solution, &before_Nm, &after_Nm);
+    const double whole_Nm = e->state == HCI_RIPPLE_KNOWN ? e->peak_to_peak_Nm : before_Nm;
+    if (!(zero_Nm > 0.0) || 2.0 * zero_Nm < MUCH_OF_ZEROS * whole_Nm) return;
+    const bool is_taken = hci_angle_torque_Nm(&t->declared.model, &t->diagnosis.effects.list, 1.0) >= zero_Nm;
+    append(t,
+           is_taken
+               ? "; order 1, %.2g N·m, is cogging torque, or zeros of the current sensors that are off by "
+                 "up to %.2g A and no torque of the motor, which these logs do not tell apart: the table "
+                 "takes it away for sensors as they were, and adds it where they are nulled or corrected"
+               : "; order 1, %.2g N·m, is taken for zeros of the current sensors, %.2g A, and may be "
+                 "cogging torque, which these logs do not tell apart: the table leaves it then",
+           zero_Nm, zero_A);
 }
 
 /* What else than the motor may be in the logs. */
@@ -350,6 +377,7 @@ static void append_of_loop(cli_tuning *t)
 static void append_of_table(cli_tuning *t)
 {
     append_of_logs(t);
+    append_of_zeros(t);
     if (t->is_solved && *t->solution.corrections)
         append(t,
                "The sensors of the drive, where they are those of the logs, have to be corrected before: %s",
@@ -384,6 +412,39 @@ static void append_of_table(cli_tuning *t)
                cli_tune_constant_option(t));
 }
 
+/* Of the torque per ampere, that sheets are off by and torque sensors, too, and that is not spoken of. */
+#define NEAR_SHEET 0.02
+
+/* Share of the declared torque per ampere that effects of the fundamental add: 0: they do not. */
+static double found_above_sheet(const cli_tuning *t)
+{
+    const hci_effects *list = &t->diagnosis.effects.list;
+    double more_Nm_per_A = 0.0;
+    for (size_t k = 0; k < list->count; ++k) {
+        const hci_effect *e = &list->effect[k];
+        for (size_t j = 0; j < e->count; ++j) {
+            const hci_effect_parameter *p = &e->type->parameter[e->term[j].parameter];
+            if (strcmp(p->unit, "Nm_per_A") == 0 && strcmp(p->name, "sine") == 0 &&
+                fabs(e->term[j].order - 1.0) < HCI_ORDER_TOLERANCE)
+                more_Nm_per_A += 1.5 * e->term[j].value;
+        }
+    }
+    return more_Nm_per_A / t->reading.run.torque_constant_Nm_per_A;
+}
+
+/* A torque sensor that reads too much makes all machines that its recordings allow too strong alike. */
+static void append_of_scale(cli_tuning *t)
+{
+    const double share = found_above_sheet(t), percent = 100.0 * fabs(share);
+    if (t->is_solved && !t->has_emf && fabs(share) > NEAR_SHEET && percent < 100.0)
+        append(
+            t,
+            "; the torque sensor shows %.2g %% %s torque per ampere than %s makes: if it is the sensor (or "
+            "those of the currents) that reads so, mean torque and ripple are as much %s than said",
+            percent, share > 0.0 ? "more" : "less", cli_tune_constant_option(t),
+            share > 0.0 ? "smaller" : "larger");
+}
+
 /* What the recordings do not tell of the torque. */
 static void append_of_torque(cli_tuning *t)
 {
@@ -400,6 +461,7 @@ static void append_of_torque(cli_tuning *t)
     if (cli_tune_is_coarse(t) && t->is_solved && !(cli_tune_reach_of_slopes(t) > 0.0))
         append(t, "Orders above %.3g were not looked at, since the samples lie too far apart",
                t->highest_order);
+    append_of_scale(t);
     if (cli_tune_hangs_on_lag(t))
         append(t, "The torque sensor is taken to be in time, which one speed does not tell");
     if (t->mains_Hz > 0.0 && t->is_solved)

@@ -23,6 +23,7 @@
 #include "host/diagnose/search/backward.h"
 #include "host/diagnose/uncertainty.h"
 #include "host/machine/torque_constant.h"
+#include "host/waveform/sensor_zero.h"
 
 #define RESOLUTION 5e-4 /* of the largest rms torque */
 #define REPEATED   0.1  /* of the square of what is left beside noise, that may differ from turn to turn */
@@ -564,6 +565,25 @@ static double unexplained_ripple_Nm(const hci_diagnosis *d)
     return count > 0.0 ? sqrt(sum / count) : (double)NAN;
 }
 
+#define STANDS_OUT 2.0 /* of what noise exceeds once in twenty times: it does once in 160 000 times */
+
+/* The largest ripple, peak to peak at most, that repeats with the turn in a recording and is not in the
+ * model: what was decisive and not taken, and what no effect describes. */
+static double left_orders_Nm(const hci_diagnosis *d)
+{
+    double most_Nm = 0.0;
+    for (size_t r = 0; r <= d->runs; ++r) { /* one that disagrees keeps its number */
+        double sum_Nm = 0.0;
+        for (size_t k = 0; k < d->lines; ++k) {
+            const hci_residual_line *l = &d->line[k];
+            if (l->run == r && l->order > HCI_ORDER_TOLERANCE && l->after_Nm > STANDS_OUT * l->noise_Nm)
+                sum_Nm += 2.0 * l->after_Nm;
+        }
+        most_Nm = fmax(most_Nm, sum_Nm);
+    }
+    return most_Nm;
+}
+
 /* Goes with the corrected machine, whether or not anything is stated of it. */
 static void origin_fill(const task *t, hci_diagnosis *d)
 {
@@ -573,6 +593,9 @@ static void origin_fill(const task *t, hci_diagnosis *d)
     origin->unexplained_Nm = unexplained_ripple_Nm(d);
     origin->constant_is_declared = d->held_constant_Nm_per_A > 0.0;
     origin->turning_load_Nm = hci_turning_load_Nm(&t->machine->model, &d->effects.list, t->runs);
+    origin->sensor_zero_Nm =
+        hci_sensor_zero_Nm(&t->machine->model, &d->effects.list, t->runs, d->zeros_read_A);
+    origin->left_Nm = left_orders_Nm(d);
 }
 
 static bool is_usable(const hci_runs *runs, size_t k)

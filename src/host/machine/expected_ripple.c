@@ -283,7 +283,7 @@ static hci_expected_ripple nothing(hci_ripple_state state)
                                  NAN,
                                  false,
                                  0,
-                                 {"", "", NAN, false, 0.0},
+                                 {"", "", NAN, false, 0.0, 0.0, 0.0},
                                  NAN,
                                  NAN,
                                  NAN,
@@ -407,6 +407,16 @@ static void add(hci_expected_ripple *e, double more_Nm, double mean_Nm)
     e->middle_percent += percent;
 }
 
+/* What no machine that the recordings allow has: an order that may be of the current sensors, which is there
+ * or not, and orders that the model leaves. */
+static void add_untold(const hci_ripple_path *path, const hci_machine_origin *origin, hci_expected_ripple *e)
+{
+    const double more_Nm = 2.0 * origin->sensor_zero_Nm + origin->left_Nm;
+    if (!(more_Nm > 0.0)) return;
+    if (origin->sensor_zero_Nm > e->worst_order_Nm) e->worst_order = 1.0;
+    add(e, more_Nm, hci_mean(path->torque_Nm, path->count));
+}
+
 void hci_expected_ripple_add_table(hci_expected_ripple *e, double table_Nm, double mean_Nm)
 {
     e->table_peak_to_peak_Nm += table_Nm;
@@ -431,6 +441,7 @@ hci_status hci_expected_ripple_find(const hci_ripple_path *path, const hci_uncer
     if (status) return status;
     if (expected->state == HCI_RIPPLE_KNOWN && u->origin.turning_load_Nm > 0.0)
         *expected = nothing(HCI_RIPPLE_SWAYED);
+    if (expected->state == HCI_RIPPLE_KNOWN) add_untold(path, &u->origin, expected);
     if (u) expected->origin = u->origin;
     if (expected->origin.constant_is_declared) expected->mean_error_Nm = NAN; /* as good as the sheet */
     fill_unbelievable(path, expected);

@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -165,6 +166,14 @@ static hci_status word_of(const hci_csv *csv, size_t row, const char *const *wor
                          "let diagnose write the file again, or remove it");
 }
 
+/* Torques in N·m that stand in the file where they are above 0. */
+static const struct {
+    const char *name;
+    size_t place; /* in hci_machine_origin */
+} OPTIONAL[] = {{"turning_load", offsetof(hci_machine_origin, turning_load_Nm)},
+                {"sensor_zero", offsetof(hci_machine_origin, sensor_zero_Nm)},
+                {"left_orders", offsetof(hci_machine_origin, left_Nm)}};
+
 static hci_status origin_row(const hci_csv *csv, size_t row, hci_machine_origin *origin, hci_note *note)
 {
     const char *name;
@@ -181,10 +190,12 @@ static hci_status origin_row(const hci_csv *csv, size_t row, hci_machine_origin 
         origin->constant_is_declared = true;
         return word_of(csv, row, CONSTANTS, sizeof word, word, note);
     }
-    if (strcmp(name, "turning_load") == 0)
-        return cell_read(csv, "value", row, &origin->turning_load_Nm, note);
+    for (size_t k = 0; k < sizeof OPTIONAL / sizeof *OPTIONAL; ++k)
+        if (strcmp(name, OPTIONAL[k].name) == 0)
+            return cell_read(csv, "value", row, (double *)((char *)origin + OPTIONAL[k].place), note);
     return hci_csv_error(csv, "name", row, note,
-                         "verdict, search, unexplained_ripple, torque_constant or turning_load",
+                         "verdict, search, unexplained_ripple, torque_constant, turning_load, sensor_zero or "
+                         "left_orders",
                          "let diagnose write the file again, or remove it");
 }
 
@@ -203,7 +214,7 @@ static hci_status origin_read(const char *path, hci_machine_origin *origin, hci_
 hci_status hci_uncertainty_read_machine(const char *folder, hci_uncertainty *u, hci_note *note)
 {
     char uncertainty[PATH_SIZE], measured[PATH_SIZE], diagnosis[PATH_SIZE];
-    hci_machine_origin origin = {"", "", NAN, false, 0.0};
+    hci_machine_origin origin = {"", "", NAN, false, 0.0, 0.0, 0.0};
     memset(u, 0, sizeof *u);
     hci_status status = hci_machine_path(uncertainty, sizeof uncertainty, folder, UNCERTAINTY, note);
     if (!status) status = hci_machine_path(measured, sizeof measured, folder, MEASURED, note);
@@ -282,9 +293,11 @@ static hci_status origin_write(hci_output *out, const hci_machine_origin *origin
                     origin->search);
     cell_write(out, origin->unexplained_Nm, ',');
     hci_output_text(out, "Nm\n%s", origin->constant_is_declared ? "torque_constant,declared,\n" : "");
-    if (origin->turning_load_Nm > 0.0) {
-        hci_output_text(out, "turning_load,");
-        cell_write(out, origin->turning_load_Nm, ',');
+    for (size_t k = 0; k < sizeof OPTIONAL / sizeof *OPTIONAL; ++k) {
+        const double value_Nm = *(const double *)((const char *)origin + OPTIONAL[k].place);
+        if (!(value_Nm > 0.0)) continue;
+        hci_output_text(out, "%s,", OPTIONAL[k].name);
+        cell_write(out, value_Nm, ',');
         hci_output_text(out, "Nm\n");
     }
     return HCI_OK;

@@ -13,12 +13,6 @@ bool hci_is_turning_load_order(double order, int pole_pairs)
            (fabs(a_turn - 2.0) < HCI_ORDER_TOLERANCE * pole_pairs && fabs(order - 1.0) > HCI_ORDER_TOLERANCE);
 }
 
-/* A torque of the angle alone, as machine and effects have it. */
-typedef struct {
-    const hci_machine *machine;
-    const hci_effects *effects;
-} angle_torque;
-
 static void add_effect(const hci_effect *e, double order, double *sine_Nm, double *cosine_Nm)
 {
     for (size_t k = 0; k < e->count; ++k) {
@@ -30,19 +24,25 @@ static void add_effect(const hci_effect *e, double order, double *sine_Nm, doubl
     }
 }
 
-static double amplitude_Nm(const angle_torque *x, double order)
+double hci_angle_torque_Nm(const hci_machine *machine, const hci_effects *effects, double order)
 {
     double sine_Nm = 0.0, cosine_Nm = 0.0;
-    for (size_t k = 0; k < x->machine->cogging_count; ++k) {
-        const hci_harmonic *h = &x->machine->cogging[k];
+    for (size_t k = 0; k < machine->cogging_count; ++k) {
+        const hci_harmonic *h = &machine->cogging[k];
         if (fabs(h->order - order) > HCI_ORDER_TOLERANCE) continue;
         sine_Nm += h->sine;
         cosine_Nm += h->cosine;
     }
-    for (size_t k = 0; k < x->effects->count; ++k)
-        add_effect(&x->effects->effect[k], order, &sine_Nm, &cosine_Nm);
+    for (size_t k = 0; k < effects->count; ++k)
+        add_effect(&effects->effect[k], order, &sine_Nm, &cosine_Nm);
     return hypot(sine_Nm, cosine_Nm);
 }
+
+/* A torque of the angle alone, as machine and effects have it. */
+typedef struct {
+    const hci_machine *machine;
+    const hci_effects *effects;
+} angle_torque;
 
 /* The largest amplitudes so far, of a load that turns and of any order but 0. */
 typedef struct {
@@ -51,7 +51,7 @@ typedef struct {
 
 static void look_at(const angle_torque *x, double order, largest *most)
 {
-    const double Nm = order > HCI_ORDER_TOLERANCE ? amplitude_Nm(x, order) : 0.0;
+    const double Nm = order > HCI_ORDER_TOLERANCE ? hci_angle_torque_Nm(x->machine, x->effects, order) : 0.0;
     most->any_Nm = fmax(most->any_Nm, Nm);
     if (hci_is_turning_load_order(order, x->machine->pole_pairs)) most->load_Nm = fmax(most->load_Nm, Nm);
 }

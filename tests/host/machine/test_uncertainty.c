@@ -488,6 +488,33 @@ static void test_turning_load(void)
     check_file("diagnosis.csv", TURNING);
 }
 
+/* What no machine that the recordings allow has is in the bound, and said: an order that may be of the
+ * current sensors, of which the table adds both sides where it is not there, and what the model leaves. */
+static void test_untold(void)
+{
+    static const char UNTOLD[] = "name,value,unit\nverdict,explained,\nsearch,complete,\n"
+                                 "unexplained_ripple,0,Nm\nsensor_zero,0.2,Nm\nleft_orders,0.05,Nm\n";
+    char words[1024];
+    const hci_ripple_path path = path_of(0.0, 1.0);
+    allow_cogging(0.01);
+    const hci_expected_ripple bare = expect(&path);
+    files_write(files_path("diagnosis.csv"), UNTOLD);
+    hci_uncertainty_release(&uncertainty);
+    allow_cogging(0.01);
+    const hci_expected_ripple e = expect(&path);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, bare.peak_to_peak_Nm + 0.45, e.peak_to_peak_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, bare.mean_error_Nm, e.mean_error_Nm);
+    TEST_ASSERT_EQUAL_DOUBLE(1.0, e.worst_order);
+    hci_expected_ripple_words(&e, words, sizeof words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "0.4 N\xC2\xB7m are for order 1"), words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "0.05 N\xC2\xB7m are for orders that"), words);
+    hci_expected_ripple_words(&bare, words, sizeof words);
+    TEST_ASSERT_NULL_MESSAGE(strstr(words, "are for order"), words);
+    files_remove(files_path("diagnosis.csv"));
+    write_all();
+    check_file("diagnosis.csv", UNTOLD);
+}
+
 /* No exponent, and no zero: a limit is rounded up, so that what is said is no less than what was found. */
 /* A rectangular wave has a fifth of its fundamental at order 5: twice that is where belief ends. */
 static void test_what_holds_for_the_model_alone(void)
@@ -614,6 +641,7 @@ int main(void)
     RUN_TEST(test_files_that_are_wrong);
     RUN_TEST(test_origin_is_written_again);
     RUN_TEST(test_turning_load);
+    RUN_TEST(test_untold);
     RUN_TEST(test_origin_that_is_wrong);
     RUN_TEST(test_belongs_to_one_list_of_effects);
     RUN_TEST(test_one_uncertain_order);

@@ -33,6 +33,10 @@ typedef struct {
     bool constant_is_declared; /* no recording told the torque per ampere: it is the declared one */
     double turning_load_Nm;    /* torque once or twice a turn, which a load on the shaft makes as well as the
                                 * motor, and no recording tells which; 0: none */
+    double sensor_zero_Nm;     /* amplitude of the torque of electrical order 1, which zeros of the current
+                                * sensors     that are off make as well as the motor, likewise; 0: none */
+    double left_Nm; /* largest ripple, peak to peak, of orders that stand out of the noise of a recording and
+                     * that the model does not have; 0: none */
 } hci_machine_origin;
 
 /* Whether it has not explained its recordings: partly explained, unknown, or a search that ended early. Not

@@ -354,6 +354,26 @@ static void say_zeros(const hci_words *w, const hci_diagnosis *d)
                       d->zeros_read, d->runs, d->zeros_read_A);
 }
 
+static bool any_measured(const hci_diagnosis *d)
+{
+    for (size_t k = 0; k < d->runs; ++k)
+        if (d->run[k].source == HCI_TORQUE_MEASURED) return true;
+    return false;
+}
+
+/* Of a shaft that is held or turned slowly its current says it by itself. */
+static void say_zero_or_cogging(const hci_words *w, const hci_diagnosis *d)
+{
+    const double zero_Nm = d->uncertainty.origin.sensor_zero_Nm;
+    if (zero_Nm > 0.0 && any_measured(d))
+        hci_words_say(
+            w,
+            " Whether order 1, %.2g N·m, is cogging torque or of current sensors whose zeros are off, "
+            "these recordings do not tell, since a drive may have made a current in all of them: one "
+            "of a shaft that is turned with the drive disconnected, logged without currents, tells.",
+            zero_Nm);
+}
+
 /* What was not looked for, and what would show it. */
 static void say_magnetic_only(const hci_words *w, const hci_diagnosis *d)
 {
@@ -560,6 +580,7 @@ void hci_diagnosis_words(const hci_diagnosis *d, char *text, size_t size)
     say_not_taken(&w, d);
     say_swings(&w, d);
     say_zeros(&w, d);
+    say_zero_or_cogging(&w, d);
     say_magnetic_only(&w, d);
     say_open_voltage(&w, d);
     say_free_shafts(&w, d);

@@ -1,0 +1,68 @@
+#!/bin/sh
+# What the zeros of the current sensors make of a torque, and what is left of it: logs of a torque sensor whose drive makes what its sensors read
+# zero or even, so that what they read too much flows in all of them.
+# labels: slow
+#   cli_tune_sensors.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+. "$1/tests/support/common.sh"
+use_plain_build
+cd "$work" || exit 1
+
+# 5 pole pairs, 0.1 N·m/A; cogging torque of order 12, 0.004 N·m; zeros of 30 mA make 0.003 N·m of order 1 beside any load, which cogging torque of that
+# order would make as well; 2 turn/s. COLUMNS: 0: the log has no currents. ONCE: torque per ampere that varies once a turn, a
+# share, with another phase in each log, as no effect has it.
+sensor_log() { # FILE LOAD_A SEED COLUMNS ONE_Nm ONCE WAY NOISE
+    awk -v load="$2" -v seed="$3" -v columns="$4" -v one="$5" -v once="$6" -v way="${7:-1}" -v level="${8:-0.0005}" 'BEGIN { srand(seed); turn = 6.283185307179586
+        print "time_s,theta_m_rad,speed_rad_per_s," (columns ? "iq_A,id_A," : "") "torque_Nm"
+        for (k = 0; k < 6000; ++k) { t = k / 1000; x = way * 2 * turn * t; noise = rand() + rand() + rand() - 1.5
+            torque = 0.1 * load * (1 + once * sin(x + 2 * seed) + 0.01 * sin(30 * x)) + 0.004 * sin(60 * x + 0.3) + one * sin(5 * x + 1) - way * 0.002 + level * noise
+            printf "%.4f,%.6f,%.4f,", t, x, way * 2 * turn
+            if (columns) printf "%.5f,%.5f,", load + 0.002 * (rand() - 0.5), 0.002 * (rand() - 0.5)
+            printf "%.6f\n", torque } }' >"$1"
+}
+motor='--pole-pairs 5 --flux 0.0133333333333333 --slots 12 --rated-current 1 --torque 0.08'
+bound() { # FOLDER: the bound in N·m, 0: none
+    tr -d ' \t' <"$1/summary.json" | sed -n 's/^"peak_to_peak_Nm_95":\([0-9.e-]*\).*/\1/p' | head -1
+}
+
+for load in 0.3 1; do sensor_log "one$load.csv" $load 2 1 0.003 0; done
+sensor_log one0.6.csv 0.6 3 1 0.003 0 -1
+sensor_log idle.csv 0 1 1 0.003 0
+sensor_log open.csv 0 1 0 0.003 0
+
+# ---- a drive was on in every log: cogging torque or zeros of the sensors, and the bound has both
+
+run 0 tune idle.csv one0.3.csv one0.6.csv one1.csv $motor -o on
+says '; order 1, 0\.003 N·m, is cogging torque, or zeros of the current sensors that are off by up to 0\.03 A' 'Whether order 1, 0\.003 N·m, is cogging torque or' \
+    'N·m are for order 1, which zeros'
+check "the bound has no room for a sensor that is right: $(bound on)" awk -v b="$(bound on)" 'BEGIN { exit !(b > 0.006) }'
+check "what solve and predict are told" grep -q '^sensor_zero,0\.0030*[0-9]*,Nm$' on/diagnose/machine/diagnosis.csv
+run 0 solve on/diagnose/machine --target on/target.csv --auto -o on_solved
+says 'zeros of the current sensors'
+
+# ---- a log without currents shows the torque of the motor by itself
+
+run 0 tune open.csv one0.3.csv one0.6.csv one1.csv $motor -o off
+check "a doubt that the open machine takes away" [ "$(grep -c 'order 1, 0' off/summary.json)" -eq 0 ]
+check "a bound of what is told: $(bound off)" awk -v b="$(bound off)" 'BEGIN { exit !(b > 0 && b < 0.004) }'
+
+# ---- what repeats with the turn and no effect has is in the bound
+
+sensor_log left0.csv 0 1 1 0 0.01 1 0.002
+sensor_log left0.3.csv 0.3 2 1 0 0.01 1 0.002
+sensor_log left0.6.csv 0.6 3 1 0 0.01 -1 0.002
+sensor_log left1.csv 1 4 1 0 0.01 1 0.002
+run 0 tune left0.csv left0.3.csv left0.6.csv left1.csv $motor -o left
+check "the bound lacks what the recordings show: $(bound left)" awk -v b="$(bound left)" 'BEGIN { exit !(b > 0.0032) }'
+check "what is left is not in the file" grep -q '^left_orders,0\.00[34][0-9]*,Nm$' left/diagnose/machine/diagnosis.csv
+says 'are for orders that|orders that the recordings'
+
+# ---- a torque sensor that reads 4 % too much makes the machine that much stronger: it is said of what the figures are
+
+for load in 0.3 0.6 1; do
+    awk -F, -v OFS=, 'NR > 1 { $6 *= 1.04 } 1' "one$load.csv" >"more$load.csv"
+done
+run 0 tune open.csv more0.3.csv more0.6.csv more1.csv $motor -o more
+says '; the torque sensor shows (4|3\.[89]|4\.[01]) % more torque per ampere than --flux makes: .* smaller than said'
+check "a scale where there is none" [ "$(grep -c 'torque per ampere than' off/summary.json)" -eq 0 ]
+
+finish
