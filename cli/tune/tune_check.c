@@ -89,6 +89,15 @@ static bool is_of_unit(const char *slip)
            strcmp(slip, "current_milliampere") == 0;
 }
 
+/* Whether a slip is of a size, of the torque, the currents or the magnets, which another number of the sheet
+ * would be as well. One of the angle, the phases or the poles makes another share of the torque: the sheet is
+ * no part of it. */
+static bool is_of_size(const char *slip)
+{
+    return is_of_unit(slip) || strncmp(slip, "emf_", 4) == 0 ||
+           (strncmp(slip, "current_", 8) == 0 && strcmp(slip, "current_sign") != 0);
+}
+
 /* "Most likely the torque is in N·cm (98 %), or else ..., so nothing was solved" */
 static void take_slip(cli_tuning *t, const hci_check *c, const hci_check_finding *f, double probability)
 {
@@ -100,6 +109,7 @@ static void take_slip(cli_tuning *t, const hci_check *c, const hci_check_finding
         if (!is_excluded(t, f->alternative[k])) append(t, "; or else %s", f->alternative_words[k]);
     append(t, "), so nothing was solved");
     t->slip_is_of_unit = is_of_unit(f->slip);
+    t->slip_is_of_frame = !is_of_size(f->slip);
     if (t->slip_is_of_unit)
         append(t, ": for %.100s, %.300s; where one log alone has it so, in the header of that", f->found,
                f->should_be);
@@ -311,7 +321,7 @@ static void judge_zero(cli_tuning *t, const hci_check *c)
  * where nothing mends it. */
 static void judge_sheet(cli_tuning *t, const hci_check *c)
 {
-    for (size_t k = 0; k < c->evidences; ++k) {
+    for (size_t k = 0; k < c->evidences && !t->slip_is_of_frame; ++k) {
         const hci_check_evidence *e = &c->evidence[k];
         if (strcmp(e->name, "torque_size") != 0) continue;
         if (e->state == HCI_CHECK_UNMENDED || (t->has_slip && e->state != HCI_CHECK_AGREES))

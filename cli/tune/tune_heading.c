@@ -8,6 +8,7 @@
 
 #include "cli/tune/tune_cover.h"
 #include "cli/tune/tune_facts.h"
+#include "cli/tune/tune_options.h"
 #include "cli/tune/tune_read.h"
 #include "cli/tune/tune_recorded.h"
 #include "cli/tune/tune_size.h"
@@ -193,6 +194,85 @@ static void append_of_zeros(cli_tuning *t)
                : "; order 1, %.2g N·m, is taken for zeros of the current sensors, %.2g A, and may be "
                  "cogging torque, which these logs do not tell apart: the table leaves it then",
            zero_Nm, zero_A);
+}
+
+/* What is not understood because it is not of one motor. */
+static void append_of_two(cli_tuning *t)
+{
+    cli_tune_two_ripples two;
+    if (!t->is_solved || !hci_expected_ripple_is_doubtful(&t->solution.expected) ||
+        !cli_tune_two_motors(t, &two))
+        return;
+    append(t,
+           "; the ripple of %.80s comes %d times a turn and that of %.80s %d times, and neither has the "
+           "other's: "
+           "are both logs of one motor, with the angle of its shaft?",
+           cli_tune_name_of(t, two.first), two.first_order, cli_tune_name_of(t, two.second),
+           two.second_order);
+}
+
+/* Of the torque that is rated or asked for, from which on one without a current is more than friction. */
+#define A_LOAD 0.2
+
+/* A recording with the mean torque of a load, by a sensor, and no current; NULL: none. */
+static const hci_run *loaded_without_current(const cli_tuning *t, size_t *count)
+{
+    const hci_run *first = NULL;
+    const double asked_Nm = t->arguments->given[TUNE_TORQUE] ? t->arguments->number[TUNE_TORQUE] : 0.0;
+    const double most_Nm = fmax(cli_tune_rated_Nm(t), asked_Nm);
+    for (size_t k = *count = 0; k < t->runs.count && most_Nm > 0.0; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        double mean_Nm = 0.0;
+        if (r->torque_source != HCI_TORQUE_MEASURED || !r->torque_Nm || cli_tune_rms_A(r) > 0.0) continue;
+        for (size_t n = 0; n < r->count; ++n)
+            mean_Nm += r->torque_Nm[n] / (double)r->count;
+        if (fabs(mean_Nm) < A_LOAD * most_Nm) continue;
+        if (!first) first = r;
+        ++*count;
+    }
+    return first;
+}
+
+/* Currents that are in the logs under a name of their own, or in none of their columns. */
+static void append_of_unread(cli_tuning *t)
+{
+    const char *like = cli_tune_current_like(t);
+    size_t count = 0;
+    const hci_run *loaded = like ? NULL : loaded_without_current(t, &count);
+    for (size_t k = 0; k < t->runs.count && like; ++k)
+        count += t->runs.run[k].current_like[0] != '\0';
+    if (!t->is_solved) return;
+    if (like)
+        append(
+            t,
+            "; no current was read in %zu of %zu logs, and it was taken as 0: if the column `%s` is i_q, add "
+            "--column '%s'",
+            count, t->runs.count, strchr(like, '=') + 1, like);
+    else if (loaded)
+        append(t,
+               "; no current was read in %zu of %zu logs, %.80s and such, though their torque is that of a "
+               "load: it "
+               "was taken as 0, and what they show is not that of a machine without current",
+               count, t->runs.count, cli_tune_name_of(t, (size_t)(loaded - t->runs.run)));
+}
+
+/* Of a constant, that sheets and drives are off by and that is not spoken of. */
+#define NEAR_DRIVE 0.1
+
+/* The torque that a drive has computed has a constant in it, too. */
+static void append_of_drive(cli_tuning *t)
+{
+    const double sheet = t->reading.run.torque_constant_Nm_per_A;
+    for (size_t k = 0; k < t->runs.count && t->is_solved && t->is_own && !t->has_emf; ++k) {
+        const double drive = fabs(t->runs.run[k].drive_constant_Nm_per_A);
+        if (!(drive > 0.0) || fabs(drive / sheet - 1.0) < NEAR_DRIVE) continue;
+        append(t,
+               "; by its own torque in %.80s the drive counts on %.3g N·m per A of i_q, and %s makes %.3g: "
+               "one of "
+               "the two is off, and all that is said in N·m with it",
+               cli_tune_name_of(t, k), drive, cli_tune_constant_option(t), sheet);
+        return;
+    }
 }
 
 /* What else than the motor may be in the logs. */
@@ -747,6 +827,9 @@ void cli_tune_set_heading(cli_tuning *t)
         say_table(t);
     else
         say_why_not_solved(t);
+    append_of_unread(t);
+    append_of_two(t);
+    append_of_drive(t);
     append_of_loop(t);
     append_of_sheet(t);
     append_of_table(t);

@@ -269,3 +269,88 @@ cli_tune_ripple cli_tune_recorded_ripple(const cli_tuning *t)
     }
     return x;
 }
+
+/* ---- two motors ---- */
+
+/* Of a mechanical turn: parts of it, and the orders that are looked at; those below are of loads and encoders
+ * too. */
+enum { PARTS_OF_TURN = 1024, LEAST_ORDER = 3, MOST_ORDER = 240, SAMPLES_OF_ORDER = 4 };
+
+#define LEADS  0.5  /* of the rms of a ripple, that its largest order has */
+#define ABSENT 0.15 /* of its amplitude there, that another motor's log has of it */
+
+/* The ripple of a recording over the mechanical turn. */
+typedef struct {
+    double amplitude_Nm[MOST_ORDER + 1];
+    int order; /* the largest; 0: none leads, or the recording tells none */
+    int reach; /* the highest that its samples tell */
+} turn_ripple;
+
+static int way_of(const hci_run *r, size_t n)
+{
+    return goes(r, n, 1) ? 0 : 1;
+}
+
+/* Its torque less the mean of each direction, mean by mean of the parts; 0 where a part is empty. */
+static size_t fill_parts(const cli_tuning *t, const hci_run *r, double sum_Nm[PARTS_OF_TURN])
+{
+    double count[PARTS_OF_TURN] = {0.0}, mean_Nm[2] = {0.0, 0.0}, samples[2] = {0.0, 0.0};
+    size_t filled = 0;
+    for (size_t n = 0; n < r->count; ++n) {
+        mean_Nm[way_of(r, n)] += torque_of(t, r, n);
+        samples[way_of(r, n)] += 1.0;
+    }
+    for (size_t n = 0; n < r->count; ++n) {
+        const double turns = turns_of(r, n);
+        const size_t part = (size_t)((turns - floor(turns)) * PARTS_OF_TURN) % PARTS_OF_TURN;
+        sum_Nm[part] += torque_of(t, r, n) - mean_Nm[way_of(r, n)] / samples[way_of(r, n)];
+        count[part] += 1.0;
+    }
+    for (size_t k = 0; k < PARTS_OF_TURN; ++k) {
+        filled += count[k] > 0.0;
+        sum_Nm[k] = count[k] > 0.0 ? sum_Nm[k] / count[k] : 0.0;
+    }
+    return filled;
+}
+
+static void ripple_of(const cli_tuning *t, const hci_run *r, turn_ripple *x)
+{
+    double part_Nm[PARTS_OF_TURN] = {0.0}, square = 0.0;
+    const bool is_used = r->torque_source == HCI_TORQUE_MEASURED || r->torque_source == HCI_TORQUE_HOLDING;
+    memset(x, 0, sizeof *x);
+    if (!is_used || !r->torque_Nm || !r->theta_m_rad || !r->turn_known || r->only_mean) return;
+    const size_t filled = fill_parts(t, r, part_Nm);
+    x->reach = (int)fmin(MOST_ORDER, (double)(filled / SAMPLES_OF_ORDER));
+    for (int order = 1; order <= x->reach; ++order) {
+        double sine = 0.0, cosine = 0.0;
+        for (size_t k = 0; k < PARTS_OF_TURN; ++k) {
+            sine += part_Nm[k] * sin(2.0 * HCI_PI * order * (double)k / PARTS_OF_TURN);
+            cosine += part_Nm[k] * cos(2.0 * HCI_PI * order * (double)k / PARTS_OF_TURN);
+        }
+        x->amplitude_Nm[order] = 2.0 / PARTS_OF_TURN * hypot(sine, cosine);
+        square += 0.5 * pow(x->amplitude_Nm[order], 2.0);
+        if (order >= LEAST_ORDER && x->amplitude_Nm[order] > x->amplitude_Nm[x->order]) x->order = order;
+    }
+    if (sqrt(0.5) * x->amplitude_Nm[x->order] < LEADS * sqrt(square)) x->order = 0;
+}
+
+static bool lacks(const turn_ripple *x, const turn_ripple *of)
+{
+    return of->order > 0 && of->order <= x->reach &&
+           x->amplitude_Nm[of->order] < ABSENT * of->amplitude_Nm[of->order];
+}
+
+bool cli_tune_two_motors(const cli_tuning *t, cli_tune_two_ripples *two)
+{
+    static turn_ripple a, b;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        ripple_of(t, &t->runs.run[k], &a);
+        for (size_t j = k + 1; a.order > 0 && j < t->runs.count; ++j) {
+            ripple_of(t, &t->runs.run[j], &b);
+            if (!lacks(&a, &b) || !lacks(&b, &a)) continue;
+            *two = (cli_tune_two_ripples){k, j, a.order, b.order};
+            return true;
+        }
+    }
+    return false;
+}

@@ -29,4 +29,15 @@ typedef struct {
 /* Of the recordings with a torque sensor or a slow turn. O(samples). */
 cli_tune_ripple cli_tune_recorded_ripple(const cli_tuning *tune);
 
+/* Two recordings, and how often in a turn of the shaft the largest order of the ripple of each comes. */
+typedef struct {
+    size_t first, second;
+    int first_order, second_order;
+} cli_tune_two_ripples;
+
+/* Whether the ripples of two recordings have nothing of each other's largest order, which cogging torque of
+ * one motor has in both, whatever the load: they are of two motors, or of two angles. O(recordings² x orders
+ * + samples). */
+bool cli_tune_two_motors(const cli_tuning *tune, cli_tune_two_ripples *two);
+
 #endif

@@ -67,6 +67,7 @@ typedef struct {
         jump_rad; /* electrical, by which the angle of a recording jumps and stands between; 0: none does */
     double angle_to_speed; /* is_not_followed: the way of the angle to that of the speed */
     bool slip_is_of_poles; /* has_slip: of the number of pole pairs */
+    bool slip_is_of_frame; /* has_slip: of angle, phases or poles, and of no size */
     bool slip_is_of_unit;  /* has_slip: a column of the recordings has another unit */
     bool is_not_followed;  /* the angle of a recording does not go where its speed leads */
     size_t not_followed;   /* is_not_followed: which recording's */

@@ -488,10 +488,11 @@ static bool cut_plain(const char *name, name_words *w)
     return true;
 }
 
-static bool ends_in(const char *name, const char *of)
+/* Whether a name ends with a unit of this quantity, behind one of some signs. */
+static bool ends_in(const char *name, const char *signs, const char *of)
 {
     for (size_t end = 1; name[0] != '\0' && name[end] != '\0'; ++end)
-        if (strchr("_([/, ", name[end]) && is_in(hci_column_unit_of_tail(name + end), of)) return true;
+        if (strchr(signs, name[end]) && is_in(hci_column_unit_of_tail(name + end), of)) return true;
     return false;
 }
 
@@ -517,19 +518,29 @@ static bool is_of_supply(const name_words *w)
     return false;
 }
 
+static const struct {
+    const char *unit;
+    word_kind kind;
+} LIKE[] = {[HCI_LIKE_TORQUE] = {"N*m", TORQUE},
+            [HCI_LIKE_CURRENT] = {"A", CURRENT},
+            [HCI_LIKE_SPEED] = {"rpm", SPEED},
+            [HCI_LIKE_POSITION] = {"rad", POSITION}};
+
+/* Whether a unit in brackets, or in a row of units, says another of these quantities, whatever the words do:
+ * `TorqueCurrent [A]` is a current. */
+static bool is_other(hci_name_like what, const char *name, const hci_unit *of_row)
+{
+    for (int k = 0; k < (int)(sizeof LIKE / sizeof *LIKE); ++k)
+        if (k != (int)what && (is_in(of_row, LIKE[k].unit) || ends_in(name, "([", LIKE[k].unit))) return true;
+    return false;
+}
+
 bool hci_name_words_like(hci_name_like what, const char *name, const hci_unit *of_row)
 {
-    static const struct {
-        const char *unit;
-        word_kind kind;
-    } LIKE[] = {[HCI_LIKE_TORQUE] = {"N*m", TORQUE},
-                [HCI_LIKE_CURRENT] = {"A", CURRENT},
-                [HCI_LIKE_SPEED] = {"rpm", SPEED},
-                [HCI_LIKE_POSITION] = {"rad", POSITION}};
     name_words w = {.count = 0};
-    const bool is_like = is_in(of_row, LIKE[what].unit) || ends_in(name, LIKE[what].unit);
+    const bool is_like = is_in(of_row, LIKE[what].unit) || ends_in(name, "_([/, ", LIKE[what].unit);
     const char *dot = strrchr(name, '.'), *last = dot != NULL ? dot + 1 : name; /* of a path */
-    if (hci_channel_is_wanted(last, strlen(last))) return false;
+    if (hci_channel_is_wanted(last, strlen(last)) || is_other(what, name, of_row)) return false;
     if (!cut_plain(name, &w)) return is_like;
     if (what == HCI_LIKE_CURRENT && is_of_supply(&w)) return false;
     return is_like || has(&w, LIKE[what].kind) || (what == HCI_LIKE_CURRENT && has_current_letter(&w));

@@ -62,7 +62,7 @@ static hci_status give(hci_csv *csv, size_t column, hci_run_column which, bool i
 {
     char quoted[HCI_QUOTE_SIZE];
     const bool is_mechanical = which == HCI_RUN_THETA_M;
-    hci_note_set(&csv->decided, HCI_OK, "%s is the %s angle%s: it turns %s the speed says",
+    hci_note_add(&csv->decided, "%s is the %s angle%s: it turns %s the speed says",
                  hci_quote(hci_csv_name(csv, column), quoted), is_mechanical ? "mechanical" : "electrical",
                  in_degrees ? ", in degrees" : "",
                  is_mechanical ? "as fast as" : "by the pole pairs faster than");
@@ -88,16 +88,115 @@ static hci_status compare(hci_csv *csv, size_t column, int pole_pairs, double *x
     return HCI_OK;
 }
 
-hci_status hci_bare_angle_decide(hci_csv *csv, int pole_pairs, hci_note *note)
+/* ---- a speed whose unit is that of its name alone ---- */
+
+#define OF_A_UNIT 0.02 /* of a ratio that units make: pole pairs make others */
+
+enum { PARTS = 16 }; /* of a recording: noise of the speed leaves their ways as they are */
+
+/* The way of the angle over that of the speed, both in rad, part by part; 0: there is none. */
+static double ratio_of_ways(const double *x, size_t n)
+{
+    double turned = 0.0, driven = 0.0;
+    for (size_t part = 0; part < PARTS; ++part) {
+        double of_angle = 0.0, of_speed = 0.0;
+        for (size_t k = part * n / PARTS + 1; k < (part + 1) * n / PARTS; ++k) {
+            const double step_s = x[TIME * n + k] - x[TIME * n + k - 1];
+            const double speed = 0.5 * (x[SPEED * n + k] + x[SPEED * n + k - 1]);
+            const double step = remainder(x[ANGLE * n + k] - x[ANGLE * n + k - 1], 2.0 * HCI_PI);
+            if (!isfinite(step) || !isfinite(speed) || !(step_s >= 0.0)) continue;
+            of_angle += step;
+            of_speed += speed * step_s;
+        }
+        turned += fabs(of_angle);
+        driven += fabs(of_speed);
+    }
+    return driven > 0.0 ? turned / driven : 0.0;
+}
+
+/* In which unit a speed is that is read in rad/s too large by 1/ratio; NULL: in none. guessed: rad/s of a 1.
+ */
+static const char *speed_by_way(double ratio, double guessed, const char **unit)
+{
+    static const struct {
+        const char *name, *unit;
+        double rad_per_s;
+    } UNITS[] = {{"speed_rad_per_s", "rad/s", 1.0},
+                 {"speed_rev_per_s", "turn/s", 2.0 * HCI_PI},
+                 {"speed_rpm", "rpm", HCI_PI / 30.0},
+                 {"speed_deg_per_s", "degrees/s", HCI_PI / 180.0}};
+    if (fabs(ratio - 1.0) < NEAR) return NULL;
+    for (size_t k = 0; k < sizeof UNITS / sizeof *UNITS; ++k)
+        if (fabs(ratio * guessed / UNITS[k].rad_per_s - 1.0) < OF_A_UNIT) {
+            *unit = UNITS[k].unit;
+            return UNITS[k].name;
+        }
+    return NULL;
+}
+
+/* Whether the unit of a speed is the one that tools have under its name, and no word of the file. */
+static bool is_guess(const hci_csv *csv, hci_column_match *found)
+{
+    *found = hci_column_find(csv, name(HCI_RUN_SPEED));
+    return found->kind == HCI_COLUMN_ONE && found->alias && found->alias->meaning && found->alias->unit &&
+           !found->has_unit && !found->overruled_by;
+}
+
+/* Whether the angle is one that the user or the file names with its unit, or a bare one, in rad then. */
+static hci_status read_way(hci_csv *csv, double *x, bool *is_read, hci_note *note)
 {
     size_t column;
+    hci_status status = HCI_OK;
+    const bool is_bare = !hci_csv_has(csv, name(HCI_RUN_THETA_M));
+    const hci_column_match angle = hci_column_find(csv, name(HCI_RUN_THETA_M));
+    *is_read = false;
+    if (is_bare ? !hci_csv_unclear(csv, &column) : angle.alias && !angle.has_unit) return HCI_OK;
+    if (is_bare) status = hci_csv_give(csv, "theta_m", column, note);
+    if (status) return status;
+    *is_read = read(csv, name(HCI_RUN_THETA_M), x);
+    if (is_bare) --csv->given_count;
+    return HCI_OK;
+}
+
+/* Where angle and time tell that the unit is another one, it is that. */
+static hci_status speed_decide(hci_csv *csv, double *x, hci_note *note)
+{
     const size_t n = hci_csv_rows(csv);
+    hci_column_match speed;
+    char quoted[HCI_QUOTE_SIZE];
+    bool is_read;
+    if (hci_csv_has(csv, name(HCI_RUN_THETA_E)) || !is_guess(csv, &speed)) return HCI_OK;
+    const hci_status status = read_way(csv, x + ANGLE * n, &is_read, note);
+    if (status || !is_read || !read(csv, name(HCI_RUN_TIME), x + TIME * n) ||
+        !read(csv, name(HCI_RUN_SPEED), x + SPEED * n))
+        return status;
+    const char *unit, *as = speed_by_way(ratio_of_ways(x, n), speed.factor, &unit);
+    if (as == NULL) return HCI_OK;
+    hci_note_add(
+        &csv->decided,
+        "%s is read as the mechanical speed in %s, since the angle goes as far by it, and not in %s as "
+        "%s has it under that name",
+        hci_quote(hci_csv_name(csv, speed.column), quoted), unit, speed.alias->unit, speed.alias->tool);
+    return hci_csv_give(csv, as, speed.column, note);
+}
+
+static hci_status angle_decide(hci_csv *csv, int pole_pairs, double *x, hci_note *note)
+{
+    size_t column;
     if (hci_csv_has(csv, name(HCI_RUN_THETA_M)) || hci_csv_has(csv, name(HCI_RUN_THETA_E))) return HCI_OK;
-    if (n < 2 || !hci_csv_unclear(csv, &column)) return HCI_OK;
-    if (!hci_csv_has(csv, name(HCI_RUN_TIME)) || !hci_csv_has(csv, name(HCI_RUN_SPEED))) return HCI_OK;
+    return hci_csv_unclear(csv, &column) ? compare(csv, column, pole_pairs, x, note) : HCI_OK;
+}
+
+hci_status hci_bare_angle_decide(hci_csv *csv, int pole_pairs, hci_note *note)
+{
+    const size_t n = hci_csv_rows(csv);
+    if (n < 2 || !hci_csv_has(csv, name(HCI_RUN_TIME)) || !hci_csv_has(csv, name(HCI_RUN_SPEED)))
+        return HCI_OK;
     double *x = hci_memory_new(COLUMNS * n, sizeof *x);
     if (x == NULL) return hci_note_memory(note, hci_csv_path(csv), "its angle");
-    const hci_status status = compare(csv, column, pole_pairs, x, note);
+    hci_status status = angle_decide(csv, pole_pairs, x, note);
+    if (!status) status = speed_decide(csv, x, note);
+    if (!status) status = angle_decide(csv, pole_pairs, x, note);
     hci_memory_free(x);
     return status;
 }

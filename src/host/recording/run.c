@@ -493,6 +493,35 @@ static hci_status read_voltages(reader *r)
 
 /* ---- torque ---- */
 
+static bool read_raw(const reader *r, hci_run_column which, double *values)
+{
+    hci_csv_hole hole = {0};
+    hci_note unused = {{0}};
+    return hci_csv_numbers_or_nan(r->columns.csv, hci_run_column_name(which), values, &hole, &unused) ==
+           HCI_OK;
+}
+
+/* What the drive counts on, of a torque under a name of its own, in the rows as they are in the file. */
+static hci_status read_drive_constant(reader *r)
+{
+    const size_t rows = hci_csv_rows(r->columns.csv);
+    size_t n = 0;
+    double constant;
+    if (!has(r, HCI_RUN_TORQUE_COMPUTED) || !has(r, HCI_RUN_IQ)) return HCI_OK;
+    double *torque_Nm = hci_memory_new(2 * rows + 1, sizeof *torque_Nm), *iq_A = NULL;
+    if (torque_Nm == NULL) return memory_error(r);
+    iq_A = torque_Nm + rows;
+    if (read_raw(r, HCI_RUN_TORQUE_COMPUTED, torque_Nm) && read_raw(r, HCI_RUN_IQ, iq_A))
+        for (size_t k = 0; k < rows; ++k) {
+            if (!isfinite(torque_Nm[k]) || !isfinite(iq_A[k])) continue;
+            torque_Nm[n] = torque_Nm[k];
+            iq_A[n++] = iq_A[k];
+        }
+    if (hci_torque_is_of_current(torque_Nm, iq_A, n, &constant)) r->run->drive_constant_Nm_per_A = constant;
+    hci_memory_free(torque_Nm);
+    return HCI_OK;
+}
+
 /* Frees a torque that is nothing but the current. */
 static hci_status drop_computed(reader *r)
 {
@@ -506,6 +535,7 @@ static hci_status drop_computed(reader *r)
     const bool computed = hci_torque_is_of_current(run->torque_Nm, iq_A, run->count, &constant);
     hci_memory_free(iq_A);
     if (!computed) return HCI_OK;
+    run->drive_constant_Nm_per_A = constant;
     hci_note_add(&run->remark,
                  "the torque is %.4g N·m/A times i_q in every row: computed from the current and not "
                  "measured, it is not used",
@@ -585,6 +615,7 @@ static hci_status read_torque(reader *r)
 {
     hci_run *run = r->run;
     hci_status status = read_column(r, HCI_RUN_TORQUE, &run->torque_Nm);
+    if (!status) status = read_drive_constant(r);
     if (!status) status = drop_computed(r);
     if (status) return status;
     say_clipped(r);

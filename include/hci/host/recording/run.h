@@ -99,6 +99,8 @@ typedef struct {
                                 per ampere is not told */
     bool has_both_frames;    /* phase currents and both of i_d and i_q were recorded */
     bool has_sum;            /* all three currents were recorded, so that their sum says something */
+    double
+        drive_constant_Nm_per_A; /* of i_q, by a torque that the drive computed from it; 0: none is known */
     int computed_phase; /* 1, 2, 3: of two phase currents the third was made, so that the sum is 0; 0: not */
     char torque_like[HCI_RUN_NAME];  /* no torque was read, and this, as --column takes it, may read one that
                                       * stands in the file; "": none */
