@@ -188,10 +188,10 @@ static void append_of_zeros(cli_tuning *t)
     const bool is_taken = hci_angle_torque_Nm(&t->declared.model, &t->diagnosis.effects.list, 1.0) >= zero_Nm;
     append(t,
            is_taken
-               ? "; order 1, %.2g N·m, is cogging torque, or zeros of the current sensors that are off by "
+               ? "Order 1, %.2g N·m, is cogging torque, or zeros of the current sensors that are off by "
                  "up to %.2g A and no torque of the motor, which these logs do not tell apart: the table "
                  "takes it away for sensors as they were, and adds it where they are nulled or corrected"
-               : "; order 1, %.2g N·m, is taken for zeros of the current sensors, %.2g A, and may be "
+               : "Order 1, %.2g N·m, is taken for zeros of the current sensors, %.2g A, and may be "
                  "cogging torque, which these logs do not tell apart: the table leaves it then",
            zero_Nm, zero_A);
 }
@@ -204,7 +204,7 @@ static void append_of_two(cli_tuning *t)
         !cli_tune_two_motors(t, &two))
         return;
     append(t,
-           "; the ripple of %.80s comes %d times a turn and that of %.80s %d times, and neither has the "
+           "The ripple of %.80s comes %d times a turn and that of %.80s %d times, and neither has the "
            "other's: "
            "are both logs of one motor, with the angle of its shaft?",
            cli_tune_name_of(t, two.first), two.first_order, cli_tune_name_of(t, two.second),
@@ -245,12 +245,12 @@ static void append_of_unread(cli_tuning *t)
     if (like)
         append(
             t,
-            "; no current was read in %zu of %zu logs, and it was taken as 0: if the column `%s` is i_q, add "
+            "No current was read in %zu of %zu logs, and it was taken as 0: if the column `%s` is i_q, add "
             "--column '%s'",
             count, t->runs.count, strchr(like, '=') + 1, like);
     else if (loaded)
         append(t,
-               "; no current was read in %zu of %zu logs, %.80s and such, though their torque is that of a "
+               "No current was read in %zu of %zu logs, %.80s and such, though their torque is that of a "
                "load: it "
                "was taken as 0, and what they show is not that of a machine without current",
                count, t->runs.count, cli_tune_name_of(t, (size_t)(loaded - t->runs.run)));
@@ -267,7 +267,7 @@ static void append_of_drive(cli_tuning *t)
         const double drive = fabs(t->runs.run[k].drive_constant_Nm_per_A);
         if (!(drive > 0.0) || fabs(drive / sheet - 1.0) < NEAR_DRIVE) continue;
         append(t,
-               "; by its own torque in %.80s the drive counts on %.3g N·m per A of i_q, and %s makes %.3g: "
+               "By its own torque in %.80s the drive counts on %.3g N·m per A of i_q, and %s makes %.3g: "
                "one of "
                "the two is off, and all that is said in N·m with it",
                cli_tune_name_of(t, k), drive, cli_tune_constant_option(t), sheet);
@@ -517,12 +517,11 @@ static void append_of_scale(cli_tuning *t)
 {
     const double share = found_above_sheet(t), percent = 100.0 * fabs(share);
     if (t->is_solved && !t->has_emf && fabs(share) > NEAR_SHEET && percent < 100.0)
-        append(
-            t,
-            "; the torque sensor shows %.2g %% %s torque per ampere than %s makes: if it is the sensor (or "
-            "those of the currents) that reads so, mean torque and ripple are as much %s than said",
-            percent, share > 0.0 ? "more" : "less", cli_tune_constant_option(t),
-            share > 0.0 ? "smaller" : "larger");
+        append(t,
+               "The torque sensor shows %.2g %% %s torque per ampere than %s makes: if it is the sensor (or "
+               "those of the currents) that reads so, mean torque and ripple are as much %s than said",
+               percent, share > 0.0 ? "more" : "less", cli_tune_constant_option(t),
+               share > 0.0 ? "smaller" : "larger");
 }
 
 /* What the recordings do not tell of the torque. */

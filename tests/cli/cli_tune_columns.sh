@@ -45,9 +45,9 @@ for load in 0 0.3 0.6 1; do
     sensor_log "bare$load.csv" "$load" 2 "" 60
 done
 run 1 tune plc0.csv plc0.3.csv plc0.6.csv plc1.csv $motor -o plc
-says '^[^:]*: [^;]*; no current was read in 4 of 4 logs, and it was taken as 0: if the column `Axis_1.ActualCurrent \[A rms\]` is i_q, add'
+says '^  - No current was read in 4 of 4 logs, and it was taken as 0: if the column `Axis_1.ActualCurrent \[A rms\]` is i_q, add'
 run 1 tune log0.csv bare0.6.csv bare1.csv $motor -o bare
-says '^[^:]*: [^;]*; no current was read in 2 of 3 logs, bare0.6.csv and such, though their torque is that of a load'
+says '^  - No current was read in 2 of 3 logs, bare0.6.csv and such, though their torque is that of a load'
 run 1 tune bare0.csv log0.3.csv log0.6.csv log1.csv $motor -o idle # friction is no load; in one direction it may be the zero of the sensor
 check "a machine without current is accused" [ "$(grep -c 'no current was read' idle/summary.json)" -eq 0 ]
 
@@ -56,7 +56,7 @@ check "a machine without current is accused" [ "$(grep -c 'no current was read' 
 slow_log drive.csv time,position,velocity,q_current,torque 0.12 6.283185307179586 60
 awk -F, -v OFS=, 'NR > 1 { $2 /= 6.283185307179586 } 1' drive.csv >rev.csv # position and velocity of moteus are in turns
 run 0 tune rev.csv $motor -o rev
-says '; by its own torque in rev.csv the drive counts on 0\.12 N·m per A of i_q, and --flux makes 0\.1: one of the two is off'
+says '^  - By its own torque in rev.csv the drive counts on 0\.12 N·m per A of i_q, and --flux makes 0\.1: one of the two is off'
 run 0 tune rev.csv --pole-pairs 5 --flux 0.016 --slots 12 --rated-current 1 --torque 0.08 -o same
 check "two constants that agree" [ "$(grep -c 'the drive counts on' same/summary.json)" -eq 0 ]
 
@@ -64,7 +64,7 @@ check "two constants that agree" [ "$(grep -c 'the drive counts on' same/summary
 
 slow_log ampere.csv 'Timestamp,Axis_1.ActualPosition [rad],Axis_1.ActualVelocity [rad/s],Axis_1.TorqueCurrent [A],Axis_1.FollowingError [rad]' 0 1 60
 run 1 tune ampere.csv $motor -o ampere
-says "no current was read: if the column \`Axis_1.TorqueCurrent \[A\]\` is i_q, add --column 'iq=Axis_1.TorqueCurrent \[A\]'"
+says "No current was read: if the column \`Axis_1.TorqueCurrent \[A\]\` is i_q, add --column 'iq=Axis_1.TorqueCurrent \[A\]'"
 check "a current is offered as a torque" [ "$(grep -c 'torque=Axis_1' ampere/summary.json)" -eq 0 ]
 run 0 tune ampere.csv $motor --column 'iq=Axis_1.TorqueCurrent [A]' -o read
 says '  order 12: 0\.00(4|39)[0-9]* ± '
@@ -85,7 +85,7 @@ check "an electrical angle makes another speed" [ "$(grep -c 'since the angle go
 
 slow_log other.csv time_s,theta_m_rad,speed_rad_per_s,iq_A,target 0 1 84
 run 1 tune log0.csv log0.6.csv other.csv $motor -o two
-says '; the ripple of log0.csv comes 60 times a turn and that of other.csv 84 times, and neither has the other.s: are both logs of one motor'
+says '^  - The ripple of log0.csv comes 60 times a turn and that of other.csv 84 times, and neither has the other.s: are both logs of one motor'
 check "one motor is taken for two" [ "$(grep -c 'neither has the other' idle/summary.json)" -eq 0 ]
 
 finish

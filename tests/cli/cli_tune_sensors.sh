@@ -32,7 +32,7 @@ sensor_log open.csv 0 1 0 0.003 0
 # ---- a drive was on in every log: cogging torque or zeros of the sensors, and the bound has both
 
 run 0 tune idle.csv one0.3.csv one0.6.csv one1.csv $motor -o on
-says '; order 1, 0\.003 N·m, is cogging torque, or zeros of the current sensors that are off by up to 0\.03 A' 'Whether order 1, 0\.003 N·m, is cogging torque or' \
+says '^  - Order 1, 0\.003 N·m, is cogging torque, or zeros of the current sensors that are off by up to 0\.03 A' 'Whether order 1, 0\.003 N·m, is cogging torque or' \
     'N·m are for order 1, which zeros'
 check "the bound has no room for a sensor that is right: $(bound on)" awk -v b="$(bound on)" 'BEGIN { exit !(b > 0.006) }'
 check "what solve and predict are told" grep -q '^sensor_zero,0\.0030*[0-9]*,Nm$' on/diagnose/machine/diagnosis.csv
@@ -62,7 +62,7 @@ for load in 0.3 0.6 1; do
     awk -F, -v OFS=, 'NR > 1 { $6 *= 1.04 } 1' "one$load.csv" >"more$load.csv"
 done
 run 0 tune open.csv more0.3.csv more0.6.csv more1.csv $motor -o more
-says '; the torque sensor shows (4|3\.[89]|4\.[01]) % more torque per ampere than --flux makes: .* smaller than said'
+says '^  - The torque sensor shows (4|3\.[89]|4\.[01]) % more torque per ampere than --flux makes: .* smaller than said'
 check "a scale where there is none" [ "$(grep -c 'torque per ampere than' off/summary.json)" -eq 0 ]
 
 finish
