@@ -74,6 +74,12 @@ static void say_doubtful(const cli_tuning *t, double before_Nm, char *text, size
                  "at %.3g A",
                  cli_tune_name_of(t, x.run), x.peak_to_peak_Nm, current, before_Nm,
                  t->solution.plain_amplitude_A);
+    if (cli_tune_unexplained_Nm(t) > 0.0)
+        snprintf(
+            text + strlen(text), size - strlen(text),
+            "; up to %.2g N·m rms of ripple in the recordings is not in the model, and the table leaves that "
+            "at least",
+            cli_tune_unexplained_Nm(t));
 }
 
 static void say_fall(cli_tuning *t, char *text, size_t size)

@@ -1,3 +1,4 @@
+#define _XOPEN_SOURCE 700
 #include "cli/tune/tune_steps.h"
 
 #include <math.h>
@@ -92,6 +93,32 @@ static hci_status check_logs(const cli_arguments *a, hci_note *note)
     return HCI_OK;
 }
 
+/* Whether a file or folder lies in a folder that is there. */
+static bool is_in(const char *path, const char *folder)
+{
+    char *inner = realpath(path, NULL), *outer = realpath(folder, NULL);
+    const size_t length = outer ? strlen(outer) : 0;
+    const bool is = inner && outer && strncmp(inner, outer, length) == 0 &&
+                    (inner[length] == '/' || inner[length] == '\0');
+    free(inner);
+    free(outer);
+    return is;
+}
+
+/* The results of an earlier call are replaced as a whole, and what is read cannot be among them. */
+static hci_status expect_outside(const cli_arguments *a, const char *folder, hci_note *note)
+{
+    const char *read[] = {a->word[0], a->value[TUNE_RUNS]};
+    for (size_t k = 0; k < 2; ++k)
+        if (is_in(read[k], folder))
+            return hci_note_set(
+                note, HCI_ERROR_ARGUMENT,
+                "tune: %s is among the results in %s, which are replaced as a whole; give --out "
+                "another folder",
+                read[k], folder);
+    return HCI_OK;
+}
+
 /* What can be refused before any work. */
 static hci_status check_words(const cli_arguments *a, hci_note *note)
 {
@@ -120,7 +147,8 @@ hci_status cli_tune_begin(const cli_arguments *a, cli_tuning *t, hci_note *note)
     cli_tune_note(t, "#!/bin/sh\n# What tune did, step by step, from the folder where it was called: sh "
                      "commands.sh NEW_FOLDER\n"
                      "set -eu\nOUT=${1:?give a new folder}\nmkdir -p \"$OUT\"\n");
-    if (!a->given[TUNE_RUNS]) status = cli_replaced_set_aside(t->out, t->aside, note);
+    if (a->given[TUNE_RUNS]) status = expect_outside(a, t->out, note);
+    if (!status) status = cli_replaced_set_aside(t->out, t->aside, note);
     if (!status && !a->given[TUNE_RUNS] && !t->aside[0]) status = cli_tune_expect_finished(t->out, note);
     if (status) return status;
     if (a->given[TUNE_RUNS]) {

@@ -86,6 +86,23 @@ check "an electrical angle makes another speed" [ "$(grep -c 'since the angle go
 slow_log other.csv time_s,theta_m_rad,speed_rad_per_s,iq_A,target 0 1 84
 run 1 tune log0.csv log0.6.csv other.csv $motor -o two
 says '^  - The ripple of log0.csv comes 60 times a turn and that of other.csv 84 times, and neither has the other.s: are both logs of one motor'
+says '^  - Up to 0\.0[0-9]* N·m rms of ripple in the recordings is not in the model, and the table leaves that at least'
 check "one motor is taken for two" [ "$(grep -c 'neither has the other' idle/summary.json)" -eq 0 ]
+
+# ---- the results of an earlier call are replaced as a whole: a list that nothing is solved with leaves no table
+
+"$hci_solve" init motor --pole-pairs 5 --flux 0.0133333333333333 --slots 12 --rated-current 1 >stdout 2>stderr
+for load in 0 0.3 0.6 1; do echo "log$load.csv,fit"; done | sed '1i file,role' >good.csv
+sed 's/log\([0-9.]*[1-9]\)\.csv/swap\1.csv/; s/log1/swap1/' good.csv >bad.csv
+"$hci_solve" tune motor --runs good.csv --torque 0.08 -o again >stdout 2>stderr
+check "no table to begin with" [ -s again/table/tuned.c ]
+run 1 tune motor --runs bad.csv --torque 0.08 -o again
+says '^a convention is broken'
+check "the table of the call before: $(ls again)" [ ! -e again/table ]
+check "no results" grep -q 'a convention is broken' again/summary.json
+"$hci_solve" tune motor --runs good.csv --torque 0.08 -o again >stdout 2>stderr
+run 2 tune again/diagnose/machine --runs good.csv --torque 0.08 -o again
+says 'again/diagnose/machine is among the results in again'
+check "the results are gone" [ -s again/table/tuned.c ]
 
 finish
