@@ -304,6 +304,8 @@ hci_status hci_emission_choose(hci_emission *e, hci_note *note)
 void hci_emission_release(hci_emission *e)
 {
     hci_memory_free(e->rows);
+    hci_wave_samples_release(&e->tabulation.constant_samples);
+    hci_wave_samples_release(&e->tabulation.per_Nm_samples);
     hci_memory_free(e->room.knots);
     hci_memory_free(e->room.knots_A);
     hci_memory_free(e->room.knots_i8);

@@ -105,6 +105,14 @@ static hci_status check_currents(const hci_emission *e, hci_note *note)
     return HCI_OK;
 }
 
+static hci_status take_samples(hci_tabulation *t, hci_note *note)
+{
+    const bool made =
+        hci_wave_samples_make(t->constant, t->constant_count, t->period_turns, &t->constant_samples) &&
+        hci_wave_samples_make(t->per_Nm, t->per_Nm_count, t->period_turns, &t->per_Nm_samples);
+    return made ? HCI_OK : hci_note_memory(note, NULL, "the table");
+}
+
 /* Angles spread by the golden ratio, at +T, −T and no torque. */
 static uint32_t probe_angle(uint32_t k)
 {
@@ -214,6 +222,7 @@ static hci_status make_table(hci_emission *e, hci_note *note)
 {
     hci_status status = take_waves(e, note);
     if (!status) status = check_currents(e, note);
+    if (!status) status = take_samples(&e->tabulation, note);
     if (!status) status = hci_emission_choose(e, note);
     if (status) return status;
     if (hci_emit_has_rows(e->request->format))

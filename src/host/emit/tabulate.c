@@ -81,13 +81,23 @@ static void to_frame(const hci_tabulation *t, const double abc[3], double theta_
     }
 }
 
+static void waves_at(const hci_wave *waves, size_t count, const hci_wave_samples *samples, size_t turns,
+                     double share, double abc[3])
+{
+    if (samples->count > 0)
+        hci_wave_samples_at(samples, share, abc);
+    else
+        hci_waves_at(waves, count, 2.0 * HCI_PI * (double)turns * share, abc);
+}
+
 void hci_tabulation_exact(const hci_tabulation *t, uint32_t angle, double torque_Nm, double current[3],
                           double *phase_A)
 {
-    const double theta_rad = 2.0 * HCI_PI * (double)t->period_turns * ((double)angle / 4294967296.0);
+    const double share = (double)angle / 4294967296.0;
+    const double theta_rad = 2.0 * HCI_PI * (double)t->period_turns * share;
     double abc[3], slope[3];
-    hci_waves_at(t->constant, t->constant_count, theta_rad, abc);
-    hci_waves_at(t->per_Nm, t->per_Nm_count, theta_rad, slope);
+    waves_at(t->constant, t->constant_count, &t->constant_samples, t->period_turns, share, abc);
+    waves_at(t->per_Nm, t->per_Nm_count, &t->per_Nm_samples, t->period_turns, share, slope);
     for (size_t s = 0; s < 3; ++s)
         abc[s] += torque_Nm * slope[s];
     to_frame(t, abc, theta_rad, current);

@@ -4,6 +4,7 @@
 #define HCI_SRC_HOST_EMIT_TABULATE_H
 
 #include "hci/host/emit/emit.h"
+#include "host/currents/wave_samples.h"
 
 /* i(θ) = T·A(θ) + B(θ) over a period of `period_turns` electrical turns, of which every order is a whole
  * multiple. */
@@ -13,6 +14,7 @@ typedef struct {
     hci_table_frame frame;
     size_t columns, parts, period_turns;
     double torque_Nm; /* error and peak are those of |T| up to this; 0 with one part */
+    hci_wave_samples constant_samples, per_Nm_samples; /* of them, where there are many; {0}: none */
 } hci_tabulation;
 
 /* Σ|A| of the waves at the reference torque: no current is larger. */
