@@ -350,20 +350,26 @@ static void test_peaks_without_a_weight(void)
 
 /* ---- cones and the copper ---- */
 
-/* Of COPPER: rms of two phases, the copper and two orders as cones; f and H of the squares. */
-static void test_columns_of_cones(void)
+/* What a square of a coordinate counts: more of what turns fast against the rotor. */
+static double price_of(size_t j)
 {
-    double f[UNKNOWNS + 3];
-    program.minimise = HCI_MINIMISE_WORST;
-    begin_at_x(HCI_STAGE_COPPER);
+    return 1.0 + task.rotor_price * pow(component[j / 2].order - component[j / 2].sequence, 8.0);
+}
+
+/* Rms of two phases, the copper and two orders as cones, whose heads are the ripple that is kept, or that is
+ * minimised; f and H of what else there is. */
+static void check_cones(hci_limit_stage stage)
+{
+    double f[UNKNOWNS + 3], hessian[UNKNOWNS + 1][UNKNOWNS + 1] = {{0.0}};
+    const bool copper = stage == HCI_STAGE_COPPER;
+    size_t columns = 0;
+    begin_at_x(stage);
     const hci_limit_build *b = &newton.build;
     TEST_ASSERT_EQUAL_UINT64(5, b->cones);
-    TEST_ASSERT_EQUAL_UINT64(UNKNOWNS, newton.n);
+    TEST_ASSERT_EQUAL_UINT64(copper ? UNKNOWNS : UNKNOWNS + 1, newton.n);
     for (size_t k = 0, at = b->linear; k < b->cones; at += b->cone[k++])
         newton.rest_weight[at] = 0.3 + 0.2 * (double)k;
     TEST_ASSERT_EQUAL(HCI_OK, hci_newton_linearise(&newton, f));
-    size_t columns = 0;
-    double hessian[UNKNOWNS][UNKNOWNS] = {{0.0}};
     for (size_t q = 0; q < newton.act.count; ++q) {
         const size_t row = newton.act.row[q];
         if (row < b->linear || newton.act.is_equation[q]) continue;
@@ -379,9 +385,50 @@ static void test_columns_of_cones(void)
     }
     TEST_ASSERT_EQUAL_UINT64(5, columns);
     for (size_t j = 0; j < newton.n; ++j) {
-        TEST_ASSERT_DOUBLE_WITHIN(1e-12, X[j], f[j]); /* of ½ Σ x² */
+        const double price = copper ? price_of(j) : 1e-5;
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, copper ? price * X[j] : j == UNKNOWNS ? 1.0 : 0.0, f[j]);
         for (size_t i = j; i < newton.n; ++i)
-            TEST_ASSERT_DOUBLE_WITHIN(1e-4, hessian[i][j] + (i == j), newton.hessian[j * newton.n + i]);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-4, hessian[i][j] + (i == j ? price : 0.0),
+                                      newton.hessian[j * newton.n + i]);
+    }
+}
+
+static void test_columns_of_cones(void)
+{
+    program.minimise = HCI_MINIMISE_WORST;
+    task.rotor_price = 1e-7;
+    check_cones(HCI_STAGE_COPPER);
+    check_cones(HCI_STAGE_RIPPLE);
+}
+
+/* The mean that was reached, from both sides, and the swing: the rows themselves, where they act or are not
+ * kept. */
+static void test_columns_of_lines(void)
+{
+    double f[UNKNOWNS + 3];
+    program.mean_Nm = 1.2;
+    for (int acts = 0; acts < 2; ++acts) {
+        size_t q = 0;
+        begin_at_x(HCI_STAGE_RIPPLE);
+        const hci_limit_build *b = &newton.build;
+        TEST_ASSERT_EQUAL_UINT64(3, b->linear);
+        for (size_t k = 0; k < 3 && acts; ++k)
+            newton.rest_weight[k] = 0.2 + 0.1 * (double)k;
+        TEST_ASSERT_EQUAL(HCI_OK, hci_newton_linearise(&newton, f));
+        for (size_t k = 0; k < 3; ++k) {
+            const double *row = b->row + k * b->width;
+            double beyond = -row[b->n];
+            for (size_t j = 0; j < b->n; ++j)
+                beyond += row[j] * newton.x[j];
+            if (!acts && beyond < 0.0) continue;
+            TEST_ASSERT_EQUAL_UINT64(k, newton.act.row[q]);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-12, beyond, newton.act.beyond[q]);
+            TEST_ASSERT_EQUAL_DOUBLE(newton.rest_weight[k], newton.act.weight[q]);
+            TEST_ASSERT_EQUAL_MEMORY(row, newton.act.gradient + q++ * newton.n, newton.n * sizeof *row);
+        }
+        TEST_ASSERT_TRUE(acts ? q == 3 : q > 0 && q < 3);
+        for (size_t j = 0; j < newton.n; ++j)
+            TEST_ASSERT_EQUAL_DOUBLE(1e-5, newton.hessian[j * (newton.n + 1)]);
     }
 }
 
@@ -528,6 +575,7 @@ int main(void)
     RUN_TEST(test_peaks_are_followed);
     RUN_TEST(test_peaks_without_a_weight);
     RUN_TEST(test_columns_of_cones);
+    RUN_TEST(test_columns_of_lines);
     RUN_TEST(test_columns_of_equations);
     RUN_TEST(test_slack_is_dropped);
     RUN_TEST(test_peaks_that_are_found);

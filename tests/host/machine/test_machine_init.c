@@ -255,6 +255,10 @@ static void test_everything_reads_back(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 314.1592653589793, m.rated_speed_rad_per_s);
     TEST_ASSERT_EQUAL_DOUBLE(560.0, m.dc_link_voltage_V);
     TEST_ASSERT_EQUAL_INT(3, m.model.cogging_count); /* 12 slots, 8 poles: 24 in a turn, electrical order 6 */
+    char *text = files_read(files_path("m/cogging.csv"));
+    TEST_ASSERT_NOT_NULL(strstr(text, "12 slots and 8 poles"));
+    TEST_ASSERT_NOT_NULL(strstr(text, "= 6 periods in an electrical turn (24 in a mechanical"));
+    free(text);
     for (size_t k = 0; k < 3; ++k) {
         TEST_ASSERT_EQUAL_DOUBLE(6.0 * (double)(k + 1), m.cogging[k].order);
         TEST_ASSERT_EQUAL_DOUBLE(0.0, m.cogging[k].sine);
