@@ -41,6 +41,11 @@ static bool says(const char *part)
     return strstr(words(), part) != NULL;
 }
 
+static bool begins(const char *part)
+{
+    return strstr(words(), part) == text;
+}
+
 static void add(const char *effect, hci_finding_verdict verdict, double delta_bic)
 {
     d.finding[d.findings++] = (hci_finding){.effect = effect, .verdict = verdict, .delta_bic = delta_bic};
@@ -154,10 +159,9 @@ static void test_effects_that_explain_the_same(void)
     d.inertia_as_well = false;
     d.sensors_as_well = true;
     d.finding[0].verdict = HCI_FINDING_REJECTED;
-    TEST_ASSERT_EQUAL_PTR(
-        words(), strstr(text, "These recordings do not tell cogging torque and back-EMF from current "
-                              "sensors that read a part of each other's current: these explain them "
-                              "equally well. On"));
+    TEST_ASSERT_TRUE(begins("These recordings do not tell cogging torque and back-EMF from current "
+                            "sensors that read a part of each other's current: these explain them "
+                            "equally well. On"));
 }
 
 /* ---- partly ---- */
@@ -502,15 +506,15 @@ static void test_a_search_that_ended_early(void)
         d.rms_after_Nm = d.noise_Nm * (k == 1 ? 1.11 : 1.09);
         TEST_ASSERT_EQUAL(k == 0 || k == 3, says(NOISE));
         TEST_ASSERT_EQUAL(k == 1 || k == 2, says(BEST));
-        TEST_ASSERT_EQUAL_PTR(text, strstr(text, "The search was interrupted: "));
+        TEST_ASSERT_TRUE(begins("The search was interrupted: "));
         TEST_ASSERT_FALSE(says("it gets further"));
     }
     d.search = HCI_WORK_LIMITED;
     d.verdict = HCI_DIAGNOSIS_AMBIGUOUS;
-    TEST_ASSERT_EQUAL_PTR(words(), strstr(text, "The search reached the limit of its work: this is"));
+    TEST_ASSERT_TRUE(begins("The search reached the limit of its work: this is"));
     TEST_ASSERT_TRUE(says("compared with it (it gets further with fewer runs"));
     d.verdict = HCI_DIAGNOSIS_COMPLETE;
-    TEST_ASSERT_EQUAL_PTR(words(), strstr(text, "The search reached the limit of its work: nothing"));
+    TEST_ASSERT_TRUE(begins("The search reached the limit of its work: nothing"));
 }
 
 /* ---- nothing can be said ---- */
@@ -519,7 +523,7 @@ static void test_nothing_was_measured(void)
 {
     unknown();
     d.nothing_measured = true;
-    TEST_ASSERT_EQUAL_PTR(words(), strstr(text, "Nothing can be said: no recording to fit to"));
+    TEST_ASSERT_TRUE(begins("Nothing can be said: no recording to fit to"));
     TEST_ASSERT_FALSE(says(NO_EFFECT));
 }
 
@@ -528,11 +532,10 @@ static void test_nothing_was_measured(void)
 static void test_the_one_that_disagrees(void)
 {
     d.odd = (hci_odd_run){.file = "a.csv", .rms_Nm = 2.0, .others_Nm = 0.1};
-    TEST_ASSERT_EQUAL_PTR(
-        words(), strstr(text, "Only a.csv disagrees with the others: its error is 2 N·m rms, theirs 0.1 "
-                              "N·m; a swapped phase, another index, unit or sign in that file would do "
-                              "it, and so would whatever happened in it alone. It was taken out: look "
-                              "at that file. Of the others: The model"));
+    TEST_ASSERT_TRUE(begins("Only a.csv disagrees with the others: its error is 2 N·m rms, theirs 0.1 "
+                            "N·m; a swapped phase, another index, unit or sign in that file would do "
+                            "it, and so would whatever happened in it alone. It was taken out: look "
+                            "at that file. Of the others: The model"));
     strcpy(d.odd.slip, "b is c");
     TEST_ASSERT_TRUE(says("0.1 N·m; most of that goes if b is c. It was taken out"));
     d.odd.mended = true;
