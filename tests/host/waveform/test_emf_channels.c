@@ -7,7 +7,7 @@
 #include "support/draws.h"
 #include "unity.h"
 
-enum { PASSES = 6, HIGHEST = 1, ORDERS = HIGHEST + 1 };
+enum { PASSES = 6, HIGHEST = 24, ORDERS = HIGHEST + 1 };
 
 static hci_average_pass pass[PASSES];
 static hci_average_harmonic wave[PASSES * HCI_EMF_CHANNELS * ORDERS];
@@ -129,8 +129,8 @@ static void test_errors_of_turns_that_differ(void)
     }
     compare(-0.5);
     for (size_t s = 0; s < 3; ++s) {
-        hci_average_harmonic ratio[PASSES * ORDERS] = {{0.0, 0.0}};
-        hci_average ratios = {HIGHEST, 1, PASSES, 1, pass, ratio};
+        hci_average_harmonic ratio[2 * PASSES] = {{0.0, 0.0}};
+        hci_average ratios = {1, 1, PASSES, 1, pass, ratio};
         for (size_t k = 0; k < PASSES; ++k) {
             double complex z[3];
             for (size_t o = 0; o < 3; ++o) {
@@ -139,7 +139,7 @@ static void test_errors_of_turns_that_differ(void)
                        cexp((double complex)I * (double)o * 2.0 * REF_PI / 3.0);
             }
             const double complex q = z[s] / (0.5 * (z[(s + 1) % 3] + z[(s + 2) % 3]));
-            ratio[ORDERS * k + 1] = (hci_average_harmonic){creal(q), cimag(q)};
+            ratio[2 * k + 1] = (hci_average_harmonic){creal(q), cimag(q)};
         }
         const hci_order_estimate e = hci_average_estimate(&ratios, 0, 1);
         const hci_waveform_channel *c = &result.channel[s];
@@ -159,9 +159,13 @@ static void test_errors_of_few_turns(void)
         phases.counts[2] = counts == 1;
         for (size_t s = 0; s < 3; ++s) {
             channel_set(s, 1.0, 0.0, 0.0);
-            hci_average_at(&average, 1, s, 1)->sine += 0.01 * (double)(s + 1);
+            for (size_t k = 0; k < average.count; ++k)
+                for (size_t n = 2; n <= HIGHEST; ++n)
+                    *hci_average_at(&average, k, s, n) =
+                        (hci_average_harmonic){0.01 * (double)(s + 1) * sin((double)(7 * n + k)), 0.0};
             const hci_order_estimate e = hci_average_estimate(&average, s, 1);
             share[s] = e.std_error / hypot(e.mean.sine, e.mean.cosine);
+            TEST_ASSERT_TRUE(share[s] > 1e-4);
         }
         compare(1.0);
         const double others =
