@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "host/diagnose/fit/predicted_reading.h"
+#include "host/numeric/slope_average.h"
 #include "support/effect_list.h"
 #include "support/recording.h"
 
@@ -278,6 +279,106 @@ static void test_wide_bins_of_a_part_of_a_turn(void)
     check_wide_bins(false);
 }
 
+/* ---- along time ---- */
+
+enum { FIRST = 50, TURN = 400, MANY = FIRST + 2 * TURN, ORDER = 2 };
+
+static const double SPEED = 60.0, TAU_S = 0.004, SINE_NM = 0.5;
+
+static hci_binned_sample many[MANY];
+
+/* Two turns at a steady speed, of the second run, with a cogging torque alone. */
+static void turn_steadily(size_t count, size_t turns)
+{
+    memset(many, 0, sizeof many);
+    for (size_t k = FIRST; k < MANY; ++k) {
+        hci_binned_sample *x = &many[k];
+        x->reading.theta_m_rad = 0.3 + 2.0 * REF_PI * (double)(k - FIRST) / TURN;
+        x->reading.speed_rad_per_s = SPEED;
+        x->time_s = 2.0 * REF_PI / SPEED * (double)(k - FIRST) / TURN;
+        x->count = 1.0;
+        x->raw = x->reading;
+    }
+    segment[1] = (hci_segment){
+        .run = 1, .first = FIRST, .count = count, .turns = turns, .timed = true, .smooth = true};
+    segment[1].period_s = 2.0 * REF_PI / SPEED;
+    samples.sample = many;
+    samples.count = MANY;
+    el_add(&effects, "cogging", "cosine", ORDER, 0.0);
+    el_add(&effects, "cogging", "sine", ORDER, SINE_NM);
+}
+
+/* What a lag makes of sin x, at an angle: the imaginary part of e^jx/(1 + jwτ); and of its derivative by τ,
+ * −jw e^jx/(1 + jwτ)². Between samples the torque runs straight, which is 1e-3 of it off. */
+static void check_behind_a_lag(void)
+{
+    const double w = ORDER * P * SPEED, re = 1.0, im = w * TAU_S, square = re * re + im * im;
+    el_add(&effects, "torque_sensor", "time_constant", 0.0, TAU_S);
+    fill(1, true);
+    for (size_t k = 0; k < segment[1].count; ++k) {
+        const double x = ORDER * P * many[FIRST + k].reading.theta_m_rad;
+        const double s = (sin(x) - im * cos(x)) / square, c = (cos(x) + im * sin(x)) / square;
+        const double *by = reading.by_value + 3 * k;
+        TEST_ASSERT_DOUBLE_WITHIN(2e-3, SINE_NM * s, reading.torque_Nm[k]);
+        TEST_ASSERT_DOUBLE_WITHIN(2e-3, c, by[0]);
+        TEST_ASSERT_DOUBLE_WITHIN(2e-3, s, by[1]);
+        TEST_ASSERT_DOUBLE_WITHIN(2e-3 * w, -w * SINE_NM * (c + im * s) / square, by[2]);
+    }
+}
+
+static void test_the_mean_of_a_turn_behind_a_lag(void)
+{
+    turn_steadily(TURN, 7);
+    check_behind_a_lag();
+    const size_t lead = hci_settling_samples(many + FIRST, &segment[1], 16.0 * TAU_S);
+    TEST_ASSERT_EQUAL_UINT64(lead + TURN, reading.filtered);
+}
+
+/* A sensor has been there before a recording began: its first turn is run through before, or of less than one
+ * its first electrical period. */
+static void test_a_recording_behind_a_lag(void)
+{
+    turn_steadily(2 * TURN, 0);
+    check_behind_a_lag();
+    TEST_ASSERT_EQUAL_UINT64(TURN + 2 * TURN, reading.filtered);
+    memset(&effects, 0, sizeof effects);
+    turn_steadily(TURN - 40, 0);
+    check_behind_a_lag();
+    TEST_ASSERT_EQUAL_UINT64(TURN / P + 1 + TURN - 40, reading.filtered);
+}
+
+/* Of a shaft that accelerates the mean over the window of its slope, whose samples are those of the run: 9 of
+ * 1 ms are 8/104.7 of a turn, 31 of its 400 samples and one. */
+static void test_the_mean_of_a_turn_of_a_free_shaft(void)
+{
+    double time_s[4 * TURN], torque_Nm[4 * TURN], by[4 * TURN], work[8 * TURN], clock_s[101];
+    for (size_t k = 0; k < 101; ++k)
+        clock_s[k] = 5.0 + 0.001 * (double)k;
+    run[1].time_s = clock_s;
+    run[1].count = 101;
+    run[1].torque_source = HCI_TORQUE_INERTIA;
+    run[1].torque_window = 9;
+    turn_steadily(TURN, 7);
+    fill(1, true);
+    for (size_t k = 0; k < 4 * TURN; ++k) {
+        time_s[k] = many[FIRST + k % TURN].time_s + (double)(k / TURN) * segment[1].period_s;
+        by[k] = sin(ORDER * P * many[FIRST + k % TURN].reading.theta_m_rad);
+        torque_Nm[k] = SINE_NM * by[k];
+    }
+    hci_slope_average(time_s, 4 * TURN, 32, torque_Nm, 1, work);
+    hci_slope_average(time_s, 4 * TURN, 32, by, 1, work);
+    for (size_t k = 0; k < TURN; ++k) {
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, torque_Nm[2 * TURN + k], reading.torque_Nm[k]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, by[2 * TURN + k], reading.by_value[2 * k + 1]);
+    }
+    reading.instant = true; /* as it is at each sample */
+    hci_predicted_reading_fill(&regression, &effects.list, &segment[1], &reading);
+    for (size_t k = 0; k < TURN; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, SINE_NM * sin(ORDER * P * many[FIRST + k].reading.theta_m_rad),
+                                  reading.torque_Nm[k]);
+    run[1].time_s = NULL;
+}
+
 /* ---- residuals ---- */
 
 /* Measured less modelled, of smoothed readings or of raw ones; 0 of runs that are not in use, and where a
@@ -329,6 +430,9 @@ int main(void)
     RUN_TEST(test_a_free_shaft_that_hardly_accelerates);
     RUN_TEST(test_wide_bins_of_a_turn);
     RUN_TEST(test_wide_bins_of_a_part_of_a_turn);
+    RUN_TEST(test_the_mean_of_a_turn_behind_a_lag);
+    RUN_TEST(test_a_recording_behind_a_lag);
+    RUN_TEST(test_the_mean_of_a_turn_of_a_free_shaft);
     RUN_TEST(test_residuals);
     RUN_TEST(test_residuals_of_an_unknown_mean);
     return UNITY_END();
