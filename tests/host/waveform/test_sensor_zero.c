@@ -82,6 +82,32 @@ static void test_zeros_found(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.0, hci_sensor_zero_Nm(&machine, &effects, &runs, 0.0));
 }
 
+/* Zeros of 0.04, -0.02 and -0.02 A that are read on top of three amperes over 2.6 electrical turns backwards,
+ * by rows that are not even: no drive hides them. */
+static void test_zeros_found_and_read(void)
+{
+    enum { ROWS = 400 };
+    static double theta_m_rad[ROWS], i_A[3 * ROWS];
+    static const double ZERO_A[] = {0.04, -0.02, -0.02};
+    hci_effect_term term[3] = {{0, 0.0, 0.04, 0.0}, {1, 0.0, -0.02, 0.0}, {2, 0.0, -0.02, 0.0}};
+    const hci_effect effect = {hci_effect_type_find("current_offset"), term, 3};
+    const hci_effects effects = {&effect, 1};
+    const hci_machine machine = {.pole_pairs = 5, .back_emf = &BACK_EMF, .back_emf_count = 1};
+    for (int hidden = 0; hidden < 2; ++hidden) {
+        for (size_t n = 0; n < ROWS; ++n) {
+            const double x = (double)n / ROWS, way = x + 0.05 * sin(2.0 * HCI_PI * x);
+            theta_m_rad[n] = 0.3 - 2.6 * 2.0 * HCI_PI / 5.0 * way;
+            for (size_t s = 0; s < 3; ++s)
+                i_A[3 * n + s] = 3.0 * sin(5.0 * theta_m_rad[n] - 2.0 * HCI_PI * (double)s / 3.0) +
+                                 (hidden ? 0.0 : ZERO_A[s]);
+        }
+        run[0] = run[1] = (hci_run){
+            .torque_source = HCI_TORQUE_MEASURED, .i_A = i_A, .theta_m_rad = theta_m_rad, .count = ROWS};
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, hidden ? 0.3 * 0.04 : 0.0,
+                                  hci_sensor_zero_Nm(&machine, &effects, &runs, 0.0));
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -89,5 +115,6 @@ int main(void)
     RUN_TEST(test_run_without_current);
     RUN_TEST(test_zeros_read);
     RUN_TEST(test_zeros_found);
+    RUN_TEST(test_zeros_found_and_read);
     return UNITY_END();
 }

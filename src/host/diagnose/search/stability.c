@@ -70,81 +70,39 @@ static double price_of(const leaving *l, const hci_effect_type *type, double row
     return price;
 }
 
-/* The runs but one. left: [groups]. Returns their rows. */
-static double others_of(const hci_groups *all, size_t run, hci_normal_equations *left)
+/* Whether a type would be found without one run: the others fit decisively better with it. */
+static hci_status stays_without(leaving *l, const hci_effect_type *type, size_t run, bool *stays,
+                                hci_note *note)
 {
-    double rows = 0.0;
-    for (size_t r = 0; r < all->count; ++r) {
+    const hci_groups all = l->equations.groups;
+    hci_normal_equations *left = hci_memory_new(all.count, sizeof *left);
+    double with = 0.0, without = 0.0, rows = 0.0;
+    size_t count = 0;
+    if (!left) return hci_note_memory(note, NULL, "leaving runs out");
+    for (size_t r = 0; r < all.count; ++r) {
         if (r == run) continue;
-        *left++ = all->group[r];
-        rows += all->group[r].rows;
+        left[count++] = all.group[r];
+        rows += all.group[r].rows;
     }
-    return rows;
-}
-
-/* Puts what a type makes with the values that it has in the place of what a run shows. moment: out,
- * [columns]. */
-static void values_show(const leaving *l, const hci_effect_type *type, hci_normal_equations *run,
-                        double *moment)
-{
-    size_t column = 0;
-    memset(moment, 0, run->n * sizeof *moment);
-    run->moment = moment;
-    run->square = 0.0;
-    for (size_t k = 0; k < l->model->count; ++k)
-        for (size_t j = 0; l->model->candidate[k].in && j < l->model->candidate[k].count; ++j, ++column) {
-            const double *gram = run->gram + column * run->n;
-            const double value = hci_candidate_departure(&l->model->candidate[k], j);
-            if (l->model->candidate[k].type != type) continue;
-            run->square += value * (value * gram[column] + 2.0 * moment[column]);
-            for (size_t i = 0; i < run->n; ++i)
-                moment[i] += value * gram[i];
-        }
-}
-
-#define TOLD 2.0 /* times its price: what the others have to show of a type to be asked */
-
-/* One run left out, and what the others say of a type. */
-typedef struct {
-    const hci_effect_type *type; /* which is held */
-    hci_normal_equations *left;  /* [groups], room */
-    double *moment;              /* [groups][columns], room */
-    bool stays;                  /* the others fit decisively better with it */
-    bool told;                   /* they would, with the values that it has: no other effect makes as much */
-} left_out_case;
-
-static bool case_find(const leaving *l, size_t run, left_out_case *x)
-{
-    const hci_groups *all = &l->equations.groups, others = {x->left, all->count - 1};
-    const double price = price_of(l, x->type, others_of(all, run, x->left));
-    double with = 0.0, without = 0.0, expected = 0.0;
-    bool made = hci_all_in_square(&others, l->equations.precision, &with) &&
-                hci_all_in_square(&others, l->precision, &without);
-    for (size_t r = 0; r < others.count && made; ++r)
-        values_show(l, x->type, &x->left[r], x->moment + r * x->left[r].n);
-    made = made && hci_all_in_square(&others, l->precision, &expected);
-    x->stays = without - with > price;
-    x->told = x->stays || expected > TOLD * price;
-    return made;
-}
-
-/* told: out, the cases in which the others show enough of the type to be asked. */
-static hci_status stays_count(leaving *l, hci_verdict *v, size_t *told, hci_note *note)
-{
-    const size_t runs = l->equations.groups.count, columns = hci_candidates_terms_in(l->model);
-    left_out_case x = {.type = v->type,
-                       .left = hci_memory_new(runs + 1, sizeof *x.left),
-                       .moment = hci_memory_new(runs * columns + 1, sizeof *x.moment)};
-    bool made = x.left && x.moment;
-    hold(l, v->type);
-    for (*told = 0; v->left_out < runs && made && !hci_search_is_interrupted(l->search); ++v->left_out) {
-        made = case_find(l, v->left_out, &x);
-        v->stays += x.stays;
-        *told += x.told;
-    }
-    hci_memory_free(x.left);
-    hci_memory_free(x.moment);
+    const hci_groups others = {left, count};
+    const bool made = hci_all_in_square(&others, l->equations.precision, &with) &&
+                      hci_all_in_square(&others, l->precision, &without);
+    hci_memory_free(left);
+    *stays = without - with > price_of(l, type, rows);
     return made ? HCI_OK : hci_note_memory(note, NULL, "leaving runs out");
+}
+
+static hci_status stays_count(leaving *l, hci_verdict *v, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    hold(l, v->type);
+    for (; v->left_out < l->equations.groups.count && !status && !hci_search_is_interrupted(l->search);
+         ++v->left_out) {
+        bool stays = false;
+        status = stays_without(l, v->type, v->left_out, &stays, note);
+        v->stays += stays;
+    }
+    return status;
 }
 
 /* ---- what predicts ---- */
@@ -159,52 +117,99 @@ static bool is_told(double fall, double left_out)
 
 /* By how much runs left out are described better with a type than without: as a whole, which tells of small
  * effects in long recordings, or on the average, where a run that lies outside of the others counts no more
- * than they do. Both in units in which 0 is no better. */
-static double worth_in(const leaving *l)
+ * than they do. Both in units in which 0 is no better. untold: of each run, whether it is not asked; NULL:
+ * all are. */
+static double worth_in(const leaving *l, const bool *untold)
 {
     double sum = 0.0, mean_log = 0.0;
     for (size_t r = 0; r < l->equations.groups.count; ++r) {
         const double rows = fmax(1.0, l->equations.groups.group[r].rows);
+        if (untold && untold[r]) continue;
         sum += l->without[r] - l->with[r];
         mean_log += rows * log((l->without[r] / rows + FLOOR) / (l->with[r] / rows + FLOOR));
     }
     return fmax(sum, mean_log);
 }
 
-/* Where a run alone tells most of a combination of values, it misses that many times what leaving it out
- * lowers the squares of the others by: no more is held against the model. */
-static double missed_of(double fall, double left_out, double all_in)
+/* Takes the torque of a type with the values that it has out of what a run shows. */
+static void values_take(const hci_candidates *model, const hci_effect_type *type, hci_normal_equations *run)
 {
-    return fmin(left_out - all_in, HARDLY_TOLD * fmax(0.0, fall - all_in));
+    size_t column = 0;
+    for (size_t k = 0; k < model->count; ++k)
+        for (size_t j = 0; model->candidate[k].in && j < model->candidate[k].count; ++j, ++column) {
+            const double *gram = run->gram + column * run->n;
+            const double value = hci_candidate_departure(&model->candidate[k], j);
+            if (model->candidate[k].type != type) continue;
+            run->square += value * (value * gram[column] - 2.0 * run->moment[column]);
+            for (size_t i = 0; i < run->n; ++i)
+                run->moment[i] -= value * gram[i];
+        }
 }
 
-/* Squares of the runs left out, of each no more than is held against the model. False when memory is out. */
-static bool squares_held(const leaving *l, const double *precision, double *square)
+/* The runs as they would be without a type whose values are known. moment: [groups][columns]. */
+static void known_fill(const leaving *l, const hci_effect_type *type, hci_normal_equations *run,
+                       double *moment)
 {
-    const hci_groups *groups = &l->equations.groups;
-    double *fall = hci_memory_new(2 * groups->count + 1, sizeof *fall);
-    double *all_in = fall ? fall + groups->count : NULL;
-    const bool made = fall && hci_left_out_squares(groups, precision, square) &&
-                      hci_all_in_squares(groups, precision, all_in) &&
-                      hci_left_out_falls(groups, precision, fall);
-    for (size_t r = 0; r < groups->count && made; ++r)
-        square[r] = all_in[r] + missed_of(fall[r], square[r], all_in[r]);
-    hci_memory_free(fall);
-    return made;
+    for (size_t r = 0; r < l->equations.groups.count; ++r) {
+        const hci_normal_equations *from = &l->equations.groups.group[r];
+        run[r] = *from;
+        run[r].moment = moment + r * from->n;
+        memcpy(run[r].moment, from->moment, from->n * sizeof *moment);
+        values_take(l->model, type, &run[r]);
+    }
 }
 
-/* What the others do not tell of a run is not the fault of the type that is asked about. */
+/* Whether a run alone tells most of a combination of values, which the others hardly do: it is missed by far
+ * more than leaving it out lowers the squares of the others by. */
+static bool tells_alone(double fall, double left_out, double all_in)
+{
+    return left_out - all_in > HARDLY_TOLD * fmax(0.0, fall - all_in);
+}
+
+/* Which runs the others do not tell even with the values of a type known: what is wrong there is not its
+ * fault. The type is held. Returns how many the others do tell. */
+static hci_status untold_find(const leaving *l, const hci_effect_type *type, bool *untold, size_t *told,
+                              hci_note *note)
+{
+    const size_t groups = l->equations.groups.count, columns = hci_candidates_terms_in(l->model);
+    hci_normal_equations *run = hci_memory_new(groups + 1, sizeof *run);
+    double *moment = hci_memory_new(groups * (columns + 3) + 1, sizeof *moment);
+    double *left_out = moment ? moment + groups * columns : NULL;
+    const hci_groups known = {run, groups};
+    if (run && moment) known_fill(l, type, run, moment);
+    const bool made = run && moment && hci_left_out_squares(&known, l->precision, left_out) &&
+                      hci_all_in_squares(&known, l->precision, left_out + groups) &&
+                      hci_left_out_falls(&known, l->precision, left_out + 2 * groups);
+    *told = 0;
+    for (size_t r = 0; r < groups && made; ++r) {
+        untold[r] = tells_alone(left_out[2 * groups + r], left_out[r], left_out[groups + r]);
+        *told += !untold[r];
+    }
+    hci_memory_free(run);
+    hci_memory_free(moment);
+    return made ? HCI_OK : hci_note_memory(note, NULL, "leaving runs out");
+}
+
+/* The same of the runs that the others tell, as long as there are enough of these. */
+static hci_status worth_in_told(const leaving *l, const hci_effect_type *type, double *worth, hci_note *note)
+{
+    bool *untold = hci_memory_new(l->equations.groups.count + 1, sizeof *untold);
+    size_t told = 0;
+    if (!untold) return hci_note_memory(note, NULL, "leaving runs out");
+    const hci_status status = untold_find(l, type, untold, &told, note);
+    if (!status && told >= HCI_LEAST_GROUPS) *worth = worth_in(l, untold);
+    hci_memory_free(untold);
+    return status;
+}
+
 static hci_status worth_of(leaving *l, const hci_effect_type *type, double *worth, hci_note *note)
 {
     hold(l, type);
-    bool made = hci_left_out_squares(&l->equations.groups, l->equations.precision, l->with) &&
-                hci_left_out_squares(&l->equations.groups, l->precision, l->without);
-    *worth = made ? worth_in(l) : 0.0;
-    if (*worth < 0.0) {
-        made = squares_held(l, l->equations.precision, l->with) && squares_held(l, l->precision, l->without);
-        *worth = worth_in(l);
-    }
-    return made ? HCI_OK : hci_note_memory(note, NULL, "leaving runs out");
+    if (!hci_left_out_squares(&l->equations.groups, l->equations.precision, l->with) ||
+        !hci_left_out_squares(&l->equations.groups, l->precision, l->without))
+        return hci_note_memory(note, NULL, "leaving runs out");
+    *worth = worth_in(l, NULL);
+    return *worth < 0.0 ? worth_in_told(l, type, worth, note) : HCI_OK;
 }
 
 hci_status hci_search_left_out(hci_search *s, const hci_candidates *model, double *misfit, hci_note *note)
@@ -230,6 +235,13 @@ typedef struct {
     double missed; /* sum of their squares where they are left out, less the same */
     size_t told;   /* of how many that is: of the others nothing is added */
 } promises;
+
+/* Where a run alone tells most of a combination of values, it misses that many times what leaving it out
+ * lowers the squares of the others by: no more is held against the model. */
+static double missed_of(double fall, double left_out, double all_in)
+{
+    return fmin(left_out - all_in, HARDLY_TOLD * fmax(0.0, fall - all_in));
+}
 
 static void promises_add(const leaving *l, size_t run, double fall, promises *p)
 {
@@ -280,35 +292,12 @@ static bool is_asked(const hci_search *s, const hci_candidates *model, const hci
            !(s->whole_coenergy && type->propose_coenergy);
 }
 
-/* Whether a type is found in too few of the cases with one run left out; of those in which the others do not
- * show it, as an offset of the torque sensor beside friction without the only run of a direction, none is
- * held against it, as long as any shows it. */
+/* Whether a type is found in too few of the cases with one run left out. */
 static hci_status is_fickle(leaving *l, const hci_effect_type *type, bool *fickle, hci_note *note)
 {
     hci_verdict v = {.type = type};
-    size_t told = 0;
-    const hci_status status = stays_count(l, &v, &told, note);
-    *fickle = 3 * v.stays < 2 * told || (v.left_out > 0 && v.stays == 0);
-    return status;
-}
-
-/* What a type is worth in runs left out; one that is fickle less than nothing. */
-typedef struct {
-    const hci_effect_type *type;
-    double worth, alone; /* alone: whether fickle or not */
-} usefulness;
-
-static bool is_less(const usefulness *x, const usefulness *than)
-{
-    return x->worth < than->worth || (x->worth == than->worth && x->alone < than->alone);
-}
-
-static hci_status usefulness_find(leaving *l, usefulness *x, hci_note *note)
-{
-    bool fickle = false;
-    hci_status status = worth_of(l, x->type, &x->alone, note);
-    if (!status) status = is_fickle(l, x->type, &fickle, note);
-    x->worth = fickle ? fmin(x->alone, 0.0) - 1.0 : x->alone;
+    const hci_status status = stays_count(l, &v, note);
+    *fickle = 3 * v.stays < 2 * v.left_out;
     return status;
 }
 
@@ -317,19 +306,23 @@ static hci_status useless_find(hci_search *s, const hci_candidates *model, const
                                hci_note *note)
 {
     leaving l;
-    usefulness least = {0};
-    hci_status status = leaving_start(s, model, &l, note);
+    double least = 0.0;
     *useless = NULL;
+    hci_status status = leaving_start(s, model, &l, note);
     if (status) return status;
     for (size_t r = 0; r < hci_candidate_types() && l.equations.groups.count >= HCI_LEAST_GROUPS && !status;
          ++r) {
-        usefulness x = {.type = hci_candidate_type(r)};
-        if (!is_asked(s, model, x.type)) continue;
-        status = usefulness_find(&l, &x, note);
-        if (!status && is_less(&x, &least)) least = x;
+        double worth = 0.0;
+        bool fickle = false;
+        if (!is_asked(s, model, hci_candidate_type(r))) continue;
+        status = worth_of(&l, hci_candidate_type(r), &worth, note);
+        if (!status) status = is_fickle(&l, hci_candidate_type(r), &fickle, note);
+        if (fickle) worth = fmin(worth, 0.0) - 1.0;
+        if (status || !(worth < least)) continue;
+        least = worth;
+        *useless = hci_candidate_type(r);
     }
     leaving_end(&l);
-    *useless = least.type;
     return status;
 }
 
@@ -350,13 +343,11 @@ hci_status hci_search_keep_predictive(hci_search *s, hci_fitted_model *model, hc
 hci_status hci_search_stability(hci_search *s, hci_attribution *a, hci_note *note)
 {
     leaving l;
-    size_t told = 0;
     if (hci_search_is_interrupted(s)) return HCI_OK;
     hci_status status = leaving_start(s, &a->model.candidates, &l, note);
     if (status) return status;
     for (size_t r = 0; r < a->types && l.equations.groups.count >= HCI_LEAST_GROUPS && !status; ++r)
-        if (hci_candidates_have(l.model, a->verdict[r].type))
-            status = stays_count(&l, &a->verdict[r], &told, note);
+        if (hci_candidates_have(l.model, a->verdict[r].type)) status = stays_count(&l, &a->verdict[r], note);
     leaving_end(&l);
     return status;
 }

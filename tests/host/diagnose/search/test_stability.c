@@ -219,40 +219,6 @@ static void test_stays_are_counted(void)
     }
 }
 
-/* Friction, a zero of the torque sensor and a torque per ampere that is a tenth more. */
-static void record_loads(const double (*load)[2], size_t count)
-{
-    for (size_t k = 0; k < count; ++k) {
-        const double brake_Nm = copysign(0.05, load[k][0]) + 0.03 - 0.1 * 1.5 * K_NM_PER_A * load[k][1];
-        record(SAMPLES, &(point){load[k][0], load[k][1], 0.0, brake_Nm, 0.0});
-    }
-    search_start();
-    model_add("friction", "coulomb", NULL, 0.0);
-    model_add("torque_sensor", "offset", NULL, 0.0);
-    model_add("back_emf", "sine", NULL, 1.0);
-    model_fit();
-    model_fit();
-}
-
-/* Without the only run backwards, or without the only other load, the zero of the torque sensor and the
- * torque per ampere make what friction does: these cases say nothing of it, and the two others show it. */
-static void test_cases_that_cannot_tell_do_not_count(void)
-{
-    static const double LOAD[][2] = {{60.0, 0.0}, {70.0, 0.0}, {-80.0, 9.0}, {90.0, 9.0}};
-    record_loads(LOAD, 4);
-    keep();
-    TEST_ASSERT_TRUE(model_has("friction") && model_has("torque_sensor") && model_has("back_emf"));
-}
-
-/* Three means and three values: whichever run is left out, the others show none of them. */
-static void test_what_no_case_shows_leaves(void)
-{
-    static const double LOAD[][2] = {{60.0, 0.0}, {-80.0, 9.0}, {90.0, 5.0}};
-    record_loads(LOAD, 3);
-    keep();
-    TEST_ASSERT_FALSE(model_has("friction") && model_has("torque_sensor") && model_has("back_emf"));
-}
-
 int main(void)
 {
     UNITY_BEGIN();
@@ -267,7 +233,5 @@ int main(void)
     RUN_TEST(test_what_explains_nothing_misses_nothing);
     RUN_TEST(test_what_makes_others_worse_takes_nothing);
     RUN_TEST(test_stays_are_counted);
-    RUN_TEST(test_cases_that_cannot_tell_do_not_count);
-    RUN_TEST(test_what_no_case_shows_leaves);
     return UNITY_END();
 }
