@@ -173,9 +173,7 @@ typedef struct {
     double along_d_A;               /* largest mean i_d of a run, either way */
     double standing_current_A;      /* largest mean of a phase current over many electrical turns */
     double reference_current_A;     /* for HCI_PARAMETER_REFERENCE_CURRENT */
-    bool mirrored; /* a rotor that looks alike both ways round: the mean torque of its iron turns its sign
-                    * with i_q */
-    int richness;  /* of series in the currents: 0 low orders, 1 all orders, 2 high powers too */
+    int richness;             /* of series in the currents: 0 low orders, 1 all orders, 2 high powers too */
     const double *slot_order; /* electrical orders of the residual that stand out, whole ones: slots and
                                * poles; the strongest first */
     size_t slot_orders;       /* entries of slot_order */

@@ -68,7 +68,7 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
     static const size_t EVEN[] = {DD + 1, QQ + 1, DQ}, ODD[] = {DD, QQ, DQ + 1};
     const int most = survey->richness > 0 ? MOST_ORDER : MOST_LOW_ORDER;
     hci_effect_propose(to, DD + 1, 1, 0.0, 1.0, expected_H(survey));
-    if (!survey->mirrored) hci_effect_propose(to, DQ + 1, 1, 0.0, 4.0, expected_H(survey));
+    hci_effect_propose(to, DQ + 1, 1, 0.0, 4.0, expected_H(survey));
     for (int n = 2; n <= most; n += n == 2 ? 4 : 6)
         for (int k = 0; k < 3; ++k) {
             hci_effect_propose(to, EVEN[k], 1, n, n == 2 ? UNSYMMETRIC : USUAL, 0.0);

@@ -87,7 +87,7 @@ static void propose_order(const hci_effect_survey *survey, const hci_effect_prop
     for (size_t k = 0; k < (survey->richness == 0 ? 2 : 1); ++k) {
         const size_t wave = k == 0 ? usual : 1 - usual;
         const double alternatives = k == 1 ? UNSYMMETRIC : order == 0 ? USUAL_MEAN : USUAL;
-        if (order == 0 && (wave == 0 || (survey->mirrored && usual == 0))) continue;
+        if (order == 0 && wave == 0) continue;
         hci_effect_propose(to, 2 * monomial + wave, 1, order, alternatives,
                            expected_Nm(survey, degree, order));
     }

@@ -289,6 +289,7 @@ static hci_expected_ripple nothing(hci_ripple_state state)
                                  NAN,
                                  NAN,
                                  0.0,
+                                 0.0,
                                  0.0};
 }
 
@@ -408,11 +409,13 @@ static void add(hci_expected_ripple *e, double more_Nm, double mean_Nm)
 }
 
 /* What no machine that the recordings allow has: an order that may be of the current sensors, which is there
- * or not, and orders that the model leaves. */
+ * or not, and what the model leaves of the recordings, which is the least that its error may be. */
 static void add_untold(const hci_ripple_path *path, const hci_machine_origin *origin, hci_expected_ripple *e)
 {
-    const double more_Nm = 2.0 * origin->sensor_zero_Nm + origin->left_Nm;
+    const double left_Nm = fmax(0.0, origin->left_Nm - e->error_peak_to_peak_Nm);
+    const double more_Nm = 2.0 * origin->sensor_zero_Nm + left_Nm;
     if (!(more_Nm > 0.0)) return;
+    e->left_peak_to_peak_Nm = left_Nm;
     if (origin->sensor_zero_Nm > e->worst_order_Nm) e->worst_order = 1.0;
     add(e, more_Nm, hci_mean(path->torque_Nm, path->count));
 }

@@ -65,10 +65,10 @@ static void say_ripple(const hci_words *w, const hci_expected_ripple *e)
                       " Of that %s N·m are for order 1, which zeros of the current sensors that are off make "
                       "as well as cogging torque.",
                       number(2.0 * e->origin.sensor_zero_Nm, true, Nm));
-    if (e->origin.left_Nm > 0.0)
+    if (e->left_peak_to_peak_Nm > 0.0)
         hci_words_say(w,
                       " Of that %s N·m are for orders that the recordings show and the model does not have.",
-                      number(e->origin.left_Nm, true, Nm));
+                      number(e->left_peak_to_peak_Nm, true, Nm));
     if (isfinite(e->worst_order_Nm))
         hci_words_say(w, " Worst order %.4g, at most %s N·m off.", e->worst_order,
                       number(e->worst_order_Nm, true, Nm));

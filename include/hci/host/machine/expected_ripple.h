@@ -48,6 +48,7 @@ typedef struct {
     double table_peak_to_peak_Nm; /* the part of peak_to_peak_Nm that the cut of a table adds; 0: currents as
                                    * they were solved */
     double loop_peak_to_peak_Nm;  /* the part that a current loop adds; 0: currents that flow as they are */
+    double left_peak_to_peak_Nm;  /* the part that only what the model leaves of its recordings asks for */
 } hci_expected_ripple;
 
 /* The same with a table that the currents were cut to. table_Nm: peak to peak, of the torque with the table

@@ -24,7 +24,6 @@ enum {
 #define LEAST_PERIOD 0.02 /* electrical, that a shaft turns by which is not held */
 #define WHOLE_TURN   0.95 /* mechanical: the last sample stands before the first one */
 
-#define ALONG_Q 0.1 /* i_d beside the current, up to which all currents are along q */
 #define LITTLE 0.1 /* current beside the largest, that is next to none */
 
 #define LEAST_WARMING_K 2.0 /* a sensor of a temperature that stays wanders less */
@@ -164,16 +163,6 @@ static bool is_part_of_turn(const hci_candidates_source *s, size_t run)
     return s->runs[run].time_s && turns * s->machine->pole_pairs > LEAST_PERIOD && turns < WHOLE_TURN;
 }
 
-/* Whether a run is of direct current: it turns against the rotor, and what grows with it is of other orders.
- */
-static bool has_direct(const hci_candidates_source *s)
-{
-    bool any = false;
-    for (size_t r = 0; r < s->samples->run_count; ++r)
-        any = any || (s->use[r] && s->samples->statistics[r].is_direct);
-    return any;
-}
-
 static hci_effect_survey survey_of(const hci_candidates_source *s)
 {
     hci_effect_survey x = {.machine = s->machine,
@@ -199,7 +188,6 @@ static hci_effect_survey survey_of(const hci_candidates_source *s)
             x.standing_current_A = fmax(x.standing_current_A, fabs(f->standing_A[phase]));
     }
     x.has_temperature = warms(s);
-    x.mirrored = s->machine->slope_count == 0 && !has_direct(s) && x.along_d_A < ALONG_Q * x.current_A;
     x.both_directions = ahead && back;
     x.reference_current_A = s->reference_current_A > 0.0 ? s->reference_current_A : x.current_A;
     return x;
@@ -227,6 +215,16 @@ static bool is_magnetic(const hci_candidates_source *s, const hci_effect_type *t
     for (size_t r = 0; r < s->samples->run_count; ++r)
         if (s->use[r]) least_A = fmin(least_A, s->samples->statistics[r].current_A);
     return !type->any_phase || least_A < LITTLE * most_A;
+}
+
+/* Whether a run is of direct current: it turns against the rotor, and what grows with it is of other orders.
+ */
+static bool has_direct(const hci_candidates_source *s)
+{
+    bool any = false;
+    for (size_t r = 0; r < s->samples->run_count; ++r)
+        any = any || (s->use[r] && s->samples->statistics[r].is_direct);
+    return any;
 }
 
 /* What a survey points into. */

@@ -521,28 +521,6 @@ static void test_memory_is_out(void)
     }
 }
 
-/* Along q alone the means are a polynomial in i_q: even powers of it would take what odd ones leave. */
-static void test_means_along_q_turn_their_sign_with_it(void)
-{
-    make();
-    TEST_ASSERT_TRUE(is_offered("saturation", "d1q2_cosine", 0.0) &&
-                     is_offered("reluctance", "dd_cosine", 0.0));
-    TEST_ASSERT_TRUE(is_offered("saturation", "d0q3_sine", 6.0));
-    TEST_ASSERT_FALSE(is_offered("saturation", "d0q3_cosine", 0.0));
-    TEST_ASSERT_FALSE(is_offered("saturation", "d1q3_cosine", 0.0));
-    TEST_ASSERT_FALSE(is_offered("reluctance", "dq_cosine", 0.0));
-}
-
-static void test_with_currents_along_d_all_means_are_offered(void)
-{
-    for (size_t r = 0; r < RUNS; ++r)
-        for (size_t k = 0; k < SAMPLES; ++k)
-            rec_phases(-0.3 * (double)r, (double)r, P * run[r].theta_m_rad[k], run[r].i_A + 3 * k);
-    make();
-    TEST_ASSERT_TRUE(is_offered("saturation", "d0q3_cosine", 0.0) &&
-                     is_offered("reluctance", "dq_cosine", 0.0));
-}
-
 int main(void)
 {
     UNITY_BEGIN();
@@ -555,8 +533,6 @@ int main(void)
     RUN_TEST(test_friction_has_as_many_parts_as_speeds);
     RUN_TEST(test_the_magnets_need_a_temperature);
     RUN_TEST(test_without_current_no_saturation);
-    RUN_TEST(test_means_along_q_turn_their_sign_with_it);
-    RUN_TEST(test_with_currents_along_d_all_means_are_offered);
     RUN_TEST(test_even_harmonics_only_beside_even_ones);
     RUN_TEST(test_zero_sequences_need_a_neutral);
     RUN_TEST(test_orders_stand_out_of_the_residual);
