@@ -262,6 +262,25 @@ static void append_of_unread(cli_tuning *t)
                count, t->runs.count, cli_tune_name_of(t, (size_t)(loaded - t->runs.run)));
 }
 
+/* Voltages that drives command, where a current flows by them that nobody recorded. */
+static void append_of_command(cli_tuning *t)
+{
+    const hci_run *r = NULL;
+    char ohm[32] = "OHM";
+    for (size_t k = 0; k < t->runs.count && !r; ++k)
+        if (t->runs.run[k].commanded_voltage[0]) r = &t->runs.run[k];
+    if (!r) return;
+    if (t->declared.resistance_ohm > 0.0)
+        snprintf(ohm, sizeof ohm, "%.6g", t->declared.resistance_ohm / r->commanded_unit_V);
+    append(
+        t,
+        "`%s` is a voltage that the drive commands and no back-EMF, and the current that flows by it is in "
+        "no column: of a shaft that is turned slowly it is that voltage over the resistance of a phase, as "
+        "far as the back-EMF is small beside it (what that adds looks like friction): --column "
+        "'iq_A=%s/%s' --holding",
+        r->commanded_voltage, r->commanded_voltage, ohm);
+}
+
 /* Of a constant, that sheets and drives are off by and that is not spoken of. */
 #define NEAR_DRIVE 0.1
 
@@ -834,6 +853,7 @@ void cli_tune_set_heading(cli_tuning *t)
         say_why_not_solved(t);
     append_of_unread(t);
     append_of_two(t);
+    append_of_command(t);
     append_of_drive(t);
     append_of_loop(t);
     append_of_sheet(t);

@@ -2,6 +2,7 @@
 #include "host/csv/column.h"
 
 #include <assert.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -116,16 +117,17 @@ static hci_column_match find_given(const hci_csv *csv, const hci_wanted_column *
         const hci_unit *of_file = hci_column_unit(csv, column);
         const hci_unit *unit = said != NULL ? said : of_file;
         const bool is_counted = csv->given[k].counts > 0.0;
+        const bool is_quotient = said != NULL && fabs(csv->given[k].divisor) != 1.0; /* of any quantity */
         if (is_counted) unit = hci_unit_find("turn", 4);
         result.has_unit = unit != NULL;
         if (unit == NULL) unit = usual_unit(csv, column, want->unit);
         if (unit == NULL) unit = want->unit;
         result.factor = unit->factor / want->unit->factor / csv->given[k].divisor;
         if (is_counted) result.factor /= csv->given[k].counts;
-        if (of_file != NULL && !is_counted && !hci_unit_equal(of_file, unit))
+        const bool is_other = of_file != NULL && of_file->dimension != want->unit->dimension;
+        if (of_file != NULL && !is_counted && !hci_unit_equal(of_file, unit) && !(is_quotient && is_other))
             result.overruled_by = csv->given[k].name;
-        if (!is_counted && of_file != NULL && of_file->dimension != want->unit->dimension)
-            result.kind = HCI_COLUMN_GIVEN_UNIT;
+        if (is_other && !is_counted && !is_quotient) result.kind = HCI_COLUMN_GIVEN_UNIT;
         return result;
     }
     return (hci_column_match){.kind = HCI_COLUMN_NONE, .factor = 1};
@@ -315,7 +317,8 @@ static hci_status match_error(const hci_csv *csv, const char *name, const hci_co
     if (found->kind == HCI_COLUMN_GIVEN_UNIT) {
         snprintf(text, sizeof text, "a unit that is none of %s", hci_quote(name, quoted));
         fault.line = hci_csv_record_line(csv, 0);
-        fault.remedy = "name another column, or correct the unit in the file";
+        fault.remedy = "name another column, or correct the unit in the file; of a column over a number say "
+                       "the unit of the quotient, as in iq_A=COLUMN/OHM";
     }
     if (found->kind == HCI_COLUMN_UNKNOWN_UNIT) {
         fault.expected = HCI_CSV_UNIT_EXPECTED;

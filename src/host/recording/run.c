@@ -470,9 +470,27 @@ static hci_status read_currents(reader *r)
     return read_dq(r, HCI_RUN_ID, HCI_RUN_IQ, &r->run->i_A);
 }
 
+/* v_d and v_q are what a drive makes of its command, and a current flows by them. Without that they are
+ * nothing that a machine with open terminals induces. */
+static hci_status leave_command(reader *r)
+{
+    char quoted[HCI_QUOTE_SIZE];
+    keep_header(r, HCI_RUN_VQ, r->run->commanded_voltage);
+    r->run->commanded_unit_V = hci_run_column_factor(&r->columns, HCI_RUN_VQ);
+    hci_run_column_leave(&r->columns, HCI_RUN_VD);
+    hci_run_column_leave(&r->columns, HCI_RUN_VQ);
+    hci_note_add(
+        &r->run->remark,
+        "%s is a voltage that a drive commands, by which a current flows that is in no column: it is "
+        "no back-EMF, and is not used",
+        hci_quote(r->run->commanded_voltage, quoted));
+    return HCI_OK;
+}
+
 static hci_status read_dq_voltages(reader *r)
 {
     const bool given = hci_run_phase_count(&r->columns, HCI_RUN_VA) < 2 && has(r, HCI_RUN_VQ);
+    if (given && r->no_currents) return leave_command(r);
     r->run->voltage_is_dq = given && r->run->theta_m_rad != NULL;
     return r->run->voltage_is_dq ? read_dq(r, HCI_RUN_VD, HCI_RUN_VQ, &r->run->v_V) : HCI_OK;
 }
@@ -611,6 +629,19 @@ static void say_pole_pairs(reader *r)
             fabs(turns), r->pole_pairs);
 }
 
+static hci_status no_holding_current(const reader *r)
+{
+    char remedy[2 * HCI_RUN_NAME + 160] =
+        "name its column by --column iq_A=COLUMN, or its torque by --column torque_Nm=COLUMN";
+    if (r->run->commanded_voltage[0])
+        snprintf(remedy, sizeof remedy,
+                 "of a shaft that turns slowly it is the voltage that the drive commands over the resistance "
+                 "of a phase: --column 'iq_A=%s/OHM'",
+                 r->run->commanded_voltage);
+    return missing(r, "a holding test without a current that is read", "the current that holds the shaft",
+                   remedy);
+}
+
 static hci_status read_torque(reader *r)
 {
     hci_run *run = r->run;
@@ -624,9 +655,7 @@ static hci_status read_torque(reader *r)
     drop_zero_of_open(r);
     hci_run_computed_torque_leave(&r->columns);
     if (run->torque_is_typed) return HCI_OK; /* a load: neither a free shaft nor a holding test */
-    if (run->torque_Nm == NULL && r->options->holding && r->no_currents)
-        return missing(r, "a holding test without a current that is read", "the current that holds the shaft",
-                       "name its column by --column iq_A=COLUMN, or its torque by --column torque_Nm=COLUMN");
+    if (run->torque_Nm == NULL && r->options->holding && r->no_currents) return no_holding_current(r);
     if (run->torque_Nm == NULL) return hci_untold_torque_set(run, r->options, r->no_currents, r->note);
     run->torque_source = is_zero(run->torque_Nm, run->count) ? HCI_TORQUE_HOLDING : HCI_TORQUE_MEASURED;
     if (run->torque_source != HCI_TORQUE_HOLDING) return HCI_OK;

@@ -354,6 +354,27 @@ static void test_a_column_over_a_number(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 40.0, run.torque_Nm[0]);
 }
 
+/* A voltage over a resistance is a current: of another quantity, where the unit of the quotient is said. */
+static void test_a_quotient_of_another_quantity(void)
+{
+    files_write(path, "theta_m_rad,uq_mV,torque_Nm\n0.5,20,1\n0.6,30,2\n");
+    add("iq_mA=uq_mV/10");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    double square = 0.0;
+    for (int s = 0; s < 3; ++s)
+        square += run.i_A[s] * run.i_A[s];
+    TEST_ASSERT_DOUBLE_WITHIN(1e-15, 1.5 * 4e-6, square);
+    text_lacks("and not in the unit that the file has", run.remark.text);
+    hci_column_names_release(&names);
+    add("iq=uq_mV/10");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_run());
+    text_has("say the unit of the quotient, as in iq_A=COLUMN/OHM", note.text);
+    hci_column_names_release(&names);
+    add("iq_A=-uq_mV");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_run());
+    text_has("a unit that is none of `iq_A`", note.text);
+}
+
 /* Currents and speeds that go by names which are not known are named with what reads them. */
 static void test_currents_and_speeds_that_were_not_read(void)
 {
@@ -507,6 +528,7 @@ int main(void)
     RUN_TEST(test_units_that_are_said);
     RUN_TEST(test_counts_by_their_numbers);
     RUN_TEST(test_a_column_over_a_number);
+    RUN_TEST(test_a_quotient_of_another_quantity);
     RUN_TEST(test_currents_and_speeds_that_were_not_read);
     RUN_TEST(test_what_is_said_comes_first);
     RUN_TEST(test_a_table_beside_the_recording_and_one_beside_the_list);

@@ -385,13 +385,13 @@ static void test_dq_currents_turn_with_the_angle(void)
  * without an angle both are left. */
 static void test_dq_voltages_turn_with_the_angle(void)
 {
-    read_text("theta_e_rad,ud_V,uq_V\n0.5,-1,2\n", 3);
+    read_text("theta_e_rad,ud_V,uq_V,iq_A\n0.5,-1,2,1\n", 3);
     for (int s = 0; s < 3; ++s) {
         const double theta = 0.5 - 2.0 * REF_PI * s / 3.0;
         TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0 * sin(theta) + cos(theta), run.v_V[s]);
     }
     hci_run_release(&run);
-    read_text("theta_e_rad,q_axis_voltage\n0.5,2000 \n", 3);
+    read_text("theta_e_rad,q_axis_voltage,iq_A\n0.5,2000,1\n", 3);
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 2000.0 * sin(0.5), run.v_V[0]);
     hci_run_release(&run);
     read_text("theta_e_rad,va_V,vb_V,vc_V,vq_V\n0.5,1,2,3,4\n", 3);

@@ -326,7 +326,7 @@ static void test_voltages_of_phases_and_lines(void)
         TEST_ASSERT_DOUBLE_WITHIN(2e-6, 2.0 * sin(0.06 * k), run.v_V[3 * k] - run.v_V[3 * k + 1]);
         TEST_ASSERT_DOUBLE_WITHIN(2e-6, 3.0 * sin(0.06 * k + 1.0), run.v_V[3 * k + 1] - run.v_V[3 * k + 2]);
     }
-    read_voltages("vd_V,vq_V", 2);
+    read_voltages("vd_V,vq_V,iq_A", 3);
     TEST_ASSERT_TRUE(run.voltage_is_dq);
     for (int k = 0; k < N; ++k) {
         double d, q;
@@ -334,6 +334,21 @@ static void test_voltages_of_phases_and_lines(void)
         TEST_ASSERT_DOUBLE_WITHIN(1e-5, 2.0 * sin(0.06 * k), d);
         TEST_ASSERT_DOUBLE_WITHIN(1e-5, 3.0 * sin(0.06 * k + 1.0), q);
     }
+}
+
+/* Beside no current they are a command, and not what the open machine induces. */
+static void test_commanded_voltages_without_a_current(void)
+{
+    read_voltages("vd_V,vq_mV", 2);
+    TEST_ASSERT_NULL(run.v_V);
+    TEST_ASSERT_FALSE(run.voltage_is_dq);
+    TEST_ASSERT_EQUAL_STRING("vq_mV", run.commanded_voltage);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-15, 1e-3, run.commanded_unit_V);
+    text_has("`vq_mV` is a voltage that a drive commands", run.remark.text);
+    text_lacks("columns not used", run.remark.text);
+    read_voltages("va_V,vb_V,vq_V", 3);
+    TEST_ASSERT_NOT_NULL(run.v_V);
+    TEST_ASSERT_EQUAL_STRING("", run.commanded_voltage);
 }
 
 /* ---- a torque of 0 ---- */
@@ -419,6 +434,7 @@ int main(void)
     RUN_TEST(test_iq_alone);
     RUN_TEST(test_currents_that_are_refused);
     RUN_TEST(test_voltages_of_phases_and_lines);
+    RUN_TEST(test_commanded_voltages_without_a_current);
     RUN_TEST(test_a_torque_of_0_at_open_terminals);
     return UNITY_END();
 }

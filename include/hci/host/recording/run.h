@@ -105,6 +105,9 @@ typedef struct {
     char torque_like[HCI_RUN_NAME];  /* no torque was read, and this, as --column takes it, may read one that
                                       * stands in the file; "": none */
     char current_like[HCI_RUN_NAME]; /* the same of i_q, where no current was read */
+    char commanded_voltage[HCI_RUN_NAME]; /* header of a v_q that was not used, since no current was recorded
+                                           * beside it; "": none */
+    double commanded_unit_V;              /* a 1 of that column in V; 0: none */
     char angle_column[HCI_RUN_NAME], speed_column[HCI_RUN_NAME],
         time_column[HCI_RUN_NAME]; /* headers of the columns that these were read from, as far as there is
                                     * room; "": none */

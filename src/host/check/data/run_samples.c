@@ -154,14 +154,13 @@ static hci_status read_currents(const check_data *data, check_run *run, check_sa
     return compare_phases(run, s, note);
 }
 
-/* Beside phase currents alone v_d, v_q would need the drive's angle. */
+/* Beside phase currents alone v_d, v_q would need the drive's angle, and beside none they are a command. */
 static void find_voltages(check_run *run, const check_samples *s, hci_run_column *first)
 {
     const bool *has = s->columns.has;
-    const bool has_dq_current = hci_run_phase_count(&s->columns, HCI_RUN_IA) < 2 || has[HCI_RUN_IQ];
     run->has_phase_voltage = hci_run_voltages(&s->columns, first);
     run->has_line_voltage = run->has_phase_voltage && *first == HCI_RUN_VAB;
-    run->has_dq_voltage = !run->has_phase_voltage && has[HCI_RUN_VQ] && has_dq_current;
+    run->has_dq_voltage = !run->has_phase_voltage && has[HCI_RUN_VQ] && has[HCI_RUN_IQ];
     run->has_voltage = run->has_phase_voltage || run->has_dq_voltage;
 }
 
