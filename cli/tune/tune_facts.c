@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "cli/tune/tune_options.h"
 #include "cli/tune/tune_read.h"
@@ -171,6 +172,22 @@ const char *cli_tune_current_like(const cli_tuning *t)
     for (size_t k = 0; k < t->runs.count; ++k)
         if (t->runs.run[k].current_like[0]) return t->runs.run[k].current_like;
     return NULL;
+}
+
+const hci_run *cli_tune_lacks_time(const cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count && cli_tune_lacks_torque(t); ++k)
+        if (!t->runs.run[k].time_column[0] && t->runs.run[k].theta_m_rad &&
+            cli_tune_rms_A(&t->runs.run[k]) > 0.0)
+            return &t->runs.run[k];
+    return NULL;
+}
+
+void cli_tune_column_of(const char *like, char text[HCI_RUN_NAME])
+{
+    snprintf(text, HCI_RUN_NAME, "%s", strchr(like, '=') + 1);
+    char *digits = strstr(text, HCI_RUN_DIGITS_PER_A);
+    if (digits) *digits = '\0';
 }
 
 /* Times the noise that a ripple may have without being looked at. */

@@ -43,6 +43,13 @@ bool cli_tune_lacks_torque(const cli_tuning *tune);
 const char *cli_tune_torque_like(const cli_tuning *tune);
 const char *cli_tune_current_like(const cli_tuning *tune);
 
+/* A recording whose angle and current say nothing since no time was read and nobody says that the shaft is
+ * turned slowly; NULL: none. */
+const hci_run *cli_tune_lacks_time(const cli_tuning *tune);
+
+/* The column in one of the two. text: out. */
+void cli_tune_column_of(const char *like, char text[HCI_RUN_NAME]);
+
 /* Whether the torque that is asked for takes less current, by the constant of the sheet, than the shaft took
  * that was turned without a load. */
 bool cli_tune_is_below_idle(const cli_tuning *tune);

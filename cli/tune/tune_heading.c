@@ -244,6 +244,8 @@ static void append_of_unread(cli_tuning *t)
 {
     const char *like = cli_tune_current_like(t);
     size_t count = 0;
+    char column[HCI_RUN_NAME] = "";
+    if (like) cli_tune_column_of(like, column);
     const hci_run *loaded = like ? NULL : loaded_without_current(t, &count);
     for (size_t k = 0; k < t->runs.count && like; ++k)
         count += t->runs.run[k].current_like[0] != '\0';
@@ -253,7 +255,7 @@ static void append_of_unread(cli_tuning *t)
             t,
             "No current was read in %zu of %zu logs, and it was taken as 0: if the column `%s` is i_q, add "
             "--column '%s'",
-            count, t->runs.count, strchr(like, '=') + 1, like);
+            count, t->runs.count, column, like);
     else if (loaded)
         append(t,
                "No current was read in %zu of %zu logs, %.80s and such, though their torque is that of a "
@@ -715,6 +717,10 @@ static const char *why_untold(const cli_tuning *t)
     if (t->tells_no_order)
         return "The logs cover not even one electrical turn, which tells no order: at least one whole "
                "mechanical turn is needed, better several";
+    if (cli_tune_lacks_time(t))
+        return "The log has an angle and a current and no time, without which nothing tells whether the "
+               "shaft "
+               "was turned slowly";
     if (t->needs_inertia) return "The inertia may answer what the current does not";
     if (cli_tune_is_one_way(t))
         return "The shaft turns in one direction alone, in which the current does not tell friction from "
@@ -797,6 +803,21 @@ static void say_elsewhere(cli_tuning *t)
         ratio, words);
 }
 
+static void append_of_time(cli_tuning *t)
+{
+    const hci_run *r = cli_tune_lacks_time(t);
+    if (!r || t->has_slip) return;
+    if (r->time_like[0])
+        append(t,
+               "No time was read: if the column `%.*s` is it, add --column '%s'; or --holding, if the shaft "
+               "was turned slowly by control",
+               (int)strcspn(strchr(r->time_like, '=') + 1, "/"), strchr(r->time_like, '=') + 1, r->time_like);
+    else
+        append(t,
+               "No time was read: name its column by --column 'time_s=COLUMN' (time_ms, time_us; COLUMN/1000 "
+               "of a counter of 1000 a second); or add --holding, if the shaft was turned slowly by control");
+}
+
 /* Columns that nobody named, and that may be what is missing. */
 static void append_of_columns(cli_tuning *t)
 {
@@ -804,9 +825,14 @@ static void append_of_columns(cli_tuning *t)
     const char *current = !t->has_slip && !torque ? cli_tune_current_like(t) : NULL;
     if (torque)
         append(t, "If the column `%s` is a torque, add --column '%s'", strchr(torque, '=') + 1, torque);
-    if (current)
-        append(t, "No current was read: if the column `%s` is i_q, add --column '%s'",
-               strchr(current, '=') + 1, current);
+    if (current) {
+        char column[HCI_RUN_NAME];
+        cli_tune_column_of(current, column);
+        append(t, "No current was read: if the column `%s` is i_q, add --column '%s'%s", column, current,
+               strstr(current, HCI_RUN_DIGITS_PER_A)
+                   ? ", with what the firmware has for 1 A, which the numbers do not tell"
+                   : "");
+    }
 }
 
 static void say_why_not_solved(cli_tuning *t)
@@ -836,6 +862,7 @@ static void say_why_not_solved(cli_tuning *t)
                  why_blocked(t) ? why_blocked(t) : why_untold(t));
     else
         snprintf(r->heading, sizeof r->heading, "%s", t->slip);
+    append_of_time(t);
     append_of_columns(t);
 }
 

@@ -113,6 +113,9 @@ static const char *next_recording(const cli_tuning *t)
                "take the brake off, leave the column out, and turn the shaft slowly under position control, "
                "one "
                "turn forward and one back, or somewhat more, with angle and i_q.";
+    if (!t->is_solved && !cli_tune_is_blocked(t) && cli_tune_lacks_time(t))
+        return "Say which column the time is, or --holding if the shaft was turned slowly by control, and "
+               "begin again with the same logs; --out may be the same.";
     if (!t->is_solved && !cli_tune_is_blocked(t) && !cli_tune_can_solve(t))
         return "Without a torque sensor: turn the shaft slowly under position control, one turn "
                "forward and one back, log angle and i_q, and give --holding. With one: turn it slowly "

@@ -33,4 +33,42 @@ sed '1s/voltage_q/Uq_V/' uq.csv >unit.csv # in a unit of its own, and over a num
 run 0 tune unit.csv $motor --column 'iq_A=Uq_V/2' --holding -o unit
 says '  order 12: 0\.00(4|39)[0-9]* ± '
 
+# ---- numbers of 16 bits
+
+awk -F, 'BEGIN { print "Timestamp,Mechanical Angle (s16degree),I_Q (s16A),SPEED_MEAS (u/min)" } NR > 1 { c = int($2 / 6.283185307179586 * 65536) % 65536
+    printf "%s,%d,%d,%.0f\n", $1 * 1000, (c > 32767 ? c - 65536 : c), $4 * 1638, $3 * 9.5492966 }' uq.csv >digits.csv
+run 1 tune digits.csv $motor -o digits
+says "add --column 'theta_m=Mechanical Angle \(s16degree\)/65536'" \
+    "No current was read: if the column \`I_Q \(s16A\)\` is i_q, add --column 'iq_A=I_Q \(s16A\)/DIGITS_PER_A', with what the firmware has for 1 A"
+sed '1s/(s16degree)/counts/' digits.csv >plain.csv # by a time in another unit a turn would have 65 counts, less than the column has
+run 1 tune plain.csv $motor -o plain
+says "add --column 'theta_m=Mechanical Angle counts/COUNTS'"
+angle='theta_m=Mechanical Angle (s16degree)/65536'
+run 3 tune digits.csv $motor --column "$angle" --column 'iq_A=I_Q (s16A)' -o whole
+says 'expected how many of them are 1 of the quantity, which the firmware knows; write iq_A=I_Q \(s16A\)/NUMBER'
+run 1 tune digits.csv $motor --column "$angle" --column 'iq_A=I_Q (s16A)/1638' -o over
+says 'Most likely the time is in milliseconds'
+check "a unit of digits" [ "$(grep -c 'are in mA' over/summary.json)" -eq 0 ]
+run 0 tune digits.csv $motor --column "$angle" --column 'iq_A=I_Q (s16A)/3276' --column time_ms=Timestamp -o over # the voltage is by 2 Ω
+says '  order 12: 0\.00(4|39)[0-9]* ± '
+
+# ---- a time under a name of its own
+
+for what in 'unix 1 time_s=unix' 'tick10ms 100 time_s=tick10ms/100' 'ticks 500 time_s=ticks/TICKS_PER_S' 'sample_ms_x 1000'; do
+    set -- $what
+    slow_log time.csv "$1,theta_m_rad,speed_rad_per_s,iq_A" "$2,1,1,1"
+    run 1 tune time.csv $motor -o time
+    if [ -n "${3-}" ]; then says "^  - No time was read: if the column \`$1\` is it, add --column '$3'; or --holding"; else says "^  - No time was read: name its column by --column 'time_s=COLUMN'"; fi
+    says '^not enough in the logs: The log has an angle and a current and no time'
+    check "a slow turn that there was" [ "$(grep -c 'turn the shaft slowly' time/summary.json)" -eq 0 ]
+    run 0 tune time.csv $motor --column "time_s=$1/$2" -o read
+    says '  order 12: 0\.00(4|39)[0-9]* ± '
+done
+slow_log time.csv millis,theta_m_rad,speed_rad_per_s,iq_A 1000,1,1,1
+run 0 tune time.csv $motor -o millis
+says '`millis` is read as the time, in ms' '  order 12: 0\.00(4|39)[0-9]* ± '
+slow_log time.csv unix,theta_m_rad,speed_rad_per_s,iq_A -1,1,1,1 # what goes back is no time
+run 1 tune time.csv $motor -o back
+says "No time was read: name its column by --column 'time_s=COLUMN'"
+
 finish

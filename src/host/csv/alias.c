@@ -23,6 +23,8 @@
 const hci_alias hci_aliases[] = {
     PLAIN("t", "time_s", "s", "many"),
     PLAIN("ms_today", "time_s", "ms", "VESC Tool"),
+    TOLD("millis", "time_s", "ms", "Arduino", "the time"),
+    TOLD("micros", "time_s", "us", "Arduino", "the time"),
     TOLD("timestamp", "time_s", "s", "many", "the time"),
     PLAIN("timestamps", "time_s", "s", "asammdf"),
     TOLD("datetime", "time_s", "s", "many", "the time"),

@@ -144,15 +144,27 @@ hci_status hci_csv_give(hci_csv *csv, const char *name, size_t column, hci_note 
     return hci_csv_give_counts(csv, name, column, 0.0, note);
 }
 
-bool hci_csv_counts(const char *name)
+/* Without regard to case; the words end with NULL. */
+static bool has_word_of(const char *name, const char *const *words)
 {
-    static const char *const WORDS[] = {"count", "cnt", "tick", "pulse", "increment"};
     char lower[64] = "";
     for (size_t k = 0; name[k] != '\0' && k + 1 < sizeof lower; ++k)
         lower[k] = (char)(name[k] >= 'A' && name[k] <= 'Z' ? name[k] - 'A' + 'a' : name[k]);
-    for (size_t k = 0; k < sizeof WORDS / sizeof *WORDS; ++k)
-        if (strstr(lower, WORDS[k]) != NULL) return true;
+    for (; *words != NULL; ++words)
+        if (strstr(lower, *words) != NULL) return true;
     return false;
+}
+
+bool hci_csv_counts(const char *name)
+{
+    static const char *const WORDS[] = {"count", "cnt", "tick", "pulse", "increment", NULL};
+    return has_word_of(name, WORDS);
+}
+
+bool hci_csv_is_sixteen_bits(const char *name)
+{
+    static const char *const WORDS[] = {"s16", "u16", "int16", NULL};
+    return has_word_of(name, WORDS);
 }
 
 hci_status hci_csv_give_counts(hci_csv *csv, const char *name, size_t column, double counts, hci_note *note)

@@ -228,10 +228,13 @@ hci_status hci_csv_error(const hci_csv *csv, const char *column, size_t row, hci
 /* Counts of the smallest encoders. */
 #define LEAST_COUNTS 64.0
 
+#define SIXTEEN_BITS 65536.0
+
 bool hci_csv_is_counted(const hci_csv *csv, size_t column, double *of_turn)
 {
     double least = DBL_MAX, most = -DBL_MAX;
-    *of_turn = 0.0;
+    *of_turn = hci_csv_is_sixteen_bits(hci_csv_cell(csv, 0, column)) ? SIXTEEN_BITS : 0.0;
+    if (*of_turn > 0.0) return true;
     for (size_t k = hci_csv_first_record(csv); k < csv->records; ++k) {
         double value;
         const char *cell = hci_csv_cell(csv, k, column);

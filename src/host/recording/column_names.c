@@ -520,9 +520,24 @@ static bool has_unit(const char *name, const hci_csv *csv, size_t column)
            hci_column_unit(csv, column) != NULL;
 }
 
+/* Numbers of a firmware, of which nobody but it knows the unit. */
+static hci_status digits_error(const hci_csv *csv, const hci_column_name *item, size_t column, hci_note *note)
+{
+    char path[HCI_QUOTE_PATH_SIZE], quoted[HCI_QUOTE_SIZE];
+    return hci_note_set(note, HCI_ERROR_INPUT,
+                        "%.300s: found %s in %s, whose numbers are 16 bits of a firmware and in no unit, "
+                        "expected how many of them are 1 of the quantity, which the firmware knows; write "
+                        "%s=%s/NUMBER, such as %s/%s",
+                        item->from, hci_quote(hci_csv_name(csv, column), quoted),
+                        hci_quote_path(hci_csv_path(csv), path), item->name, item->column, item->column,
+                        is_angle(item->name) ? "65536 for an angle" : "1638 where 1638 are 1 A");
+}
+
 static hci_status give(hci_csv *csv, const hci_column_name *item, size_t column, hci_note *note)
 {
     double of_turn;
+    if (!is_left_out(item->name) && hci_csv_is_sixteen_bits(hci_csv_name(csv, column)))
+        return digits_error(csv, item, column, note);
     if (is_angle(item->name) && !has_unit(item->name, csv, column) &&
         (hci_csv_counts(item->column) || hci_csv_is_counted(csv, column, &of_turn)))
         return counts_error(csv, item, column, note);
@@ -568,7 +583,8 @@ static hci_status give_divided(hci_csv *csv, const hci_column_name *item, size_t
     const double divisor = divisor_of(item, &length);
     if (is_angle(item->name) && divisor >= 1.0)
         return hci_csv_give_counts(csv, item->name, column, divisor, note);
-    if (is_angle(item->name) || hci_csv_counts(hci_csv_name(csv, column)))
+    if (is_angle(item->name) ||
+        (hci_csv_counts(hci_csv_name(csv, column)) && quantity_of(item->name) == HCI_RUN_TORQUE))
         return given_counts_error(item, note);
     const hci_status status = hci_csv_give(csv, item->name, column, note);
     if (!status) csv->given[csv->given_count - 1].divisor = divisor;

@@ -698,6 +698,7 @@ static hci_status take(reader *r, const hci_csv *csv)
                      hci_csv_map_of(csv));
     run->count = r->columns.count;
     run->torque_is_clipped = r->columns.torque_is_clipped;
+    memcpy(run->time_like, r->columns.time_like, sizeof run->time_like);
     run->row = r->columns.row;
     r->columns.row = NULL;
     run->name = hci_memory_malloc(strlen(path) + 1);

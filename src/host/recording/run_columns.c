@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "hci/host/base/number.h"
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
@@ -212,6 +213,18 @@ static double usual_counts(double found)
     return fabs(found / nearest - 1.0) < NEAR ? nearest : 0.0;
 }
 
+/* Whether they begin anew, and go over more than `most`: a turn is not less than that. */
+static bool is_wrapped_over(const double *counts, size_t n, double most)
+{
+    double least = counts[0], greatest = counts[0], longest = 0.0;
+    for (size_t k = 1; k < n; ++k) {
+        least = fmin(least, counts[k]);
+        greatest = fmax(greatest, counts[k]);
+        longest = fmax(longest, fabs(counts[k] - counts[k - 1]));
+    }
+    return longest > 0.5 * (greatest - least) && greatest - least > most;
+}
+
 /* Of a turn; 0: not told. The median of the parts, of which a few go over the end of a turn or a gap. */
 static double counts_of_turn(const double *counts, const double *theta_m_rad, size_t n)
 {
@@ -223,7 +236,7 @@ static double counts_of_turn(const double *counts, const double *theta_m_rad, si
         if (fabs(turned_rad) > 0.0) part[parts++] = 2.0 * HCI_PI * (counts[to] - counts[from]) / turned_rad;
     }
     const double found = parts > 0 ? fabs(hci_median(part, parts)) : 0.0;
-    return found > 1.0 ? usual_counts(found) : 0.0;
+    return found > 1.0 && !is_wrapped_over(counts, n, (1.0 + NEAR) * found) ? usual_counts(found) : 0.0;
 }
 
 hci_status hci_run_columns_angle_like(const hci_run_columns *c, const double *theta_m_rad,
@@ -242,7 +255,7 @@ hci_status hci_run_columns_angle_like(const hci_run_columns *c, const double *th
     hci_note unused = {{0}};
     double *counts = hci_memory_new(c->count, sizeof *counts);
     if (counts == NULL) return memory_error(c);
-    if (!hci_csv_numbers(c->csv, name, counts, &unused))
+    if (!(of_turn > 0.0) && !hci_csv_numbers(c->csv, name, counts, &unused))
         of_turn = counts_of_turn(counts, theta_m_rad, c->count);
     hci_memory_free(counts);
     if (of_turn > 0.0)
@@ -319,6 +332,27 @@ static hci_status no_angle(const hci_run_columns *c)
     return hci_note_set(c->note, HCI_ERROR_INPUT, "%s", text.text);
 }
 
+/* Names of what may be something else, too, as long as its numbers do not go on from row to row. */
+static bool may_be_time(const hci_run_columns *c, size_t column)
+{
+    static const char *const WORDS[] = {"unix", "epoch", "tick",    "milli", "micro",
+                                        "msec", "usec",  "elapsed", "second"};
+    const char *name = hci_csv_name(c->csv, column);
+    bool is_named = hci_csv_same_name(name, "ms") || hci_csv_same_name(name, "us");
+    double before = -INFINITY, first = NAN;
+    for (size_t k = 0; k < sizeof WORDS / sizeof *WORDS; ++k)
+        is_named = is_named || has_word(name, WORDS[k]);
+    for (size_t row = 0; row < hci_csv_rows(c->csv) && is_named; ++row) {
+        double value;
+        const char *cell = hci_csv_cell(c->csv, hci_csv_first_record(c->csv) + row, column);
+        if (!hci_number_parse(cell, &value)) continue;
+        if (value < before) return false;
+        if (isnan(first)) first = value;
+        before = value;
+    }
+    return before > first;
+}
+
 /* A column that is not read and is likely to be the time; NULL: none. */
 static const char *likely_time(const hci_run_columns *c)
 {
@@ -332,18 +366,43 @@ static const char *likely_time(const hci_run_columns *c)
         if (unit != NULL && unit->dimension == second->dimension) return name;
         for (size_t k = 0; k < sizeof WORDS / sizeof *WORDS && unit == NULL; ++k)
             if (has_word(name, WORDS[k])) return name;
+        if (unit == NULL && may_be_time(c, column)) return name;
     }
     return NULL;
 }
 
-static void tell_lost_time(const hci_run_columns *c)
+/* "_ms" of a name that says milliseconds, and so on; "_s" of another. */
+static const char *unit_of_time(const char *name)
 {
+    if (hci_csv_same_name(name, "ms") || has_word(name, "milli") || has_word(name, "msec")) return "_ms";
+    return hci_csv_same_name(name, "us") || has_word(name, "micro") || has_word(name, "usec") ? "_us" : "_s";
+}
+
+/* What a tick is, from a name such as tick10ms, "/100"; or that it has to be said; "": no ticks. */
+static void say_tick(const char *name, char text[32])
+{
+    double number = 1.0;
+    char unit[3] = "";
+    text[0] = '\0';
+    if (!has_word(name, "tick")) return;
+    snprintf(text, 32, "/TICKS_PER_S");
+    const char *digits = name + strcspn(name, "0123456789");
+    if (sscanf(digits, "%lf%2s", &number, unit) != 2 || !(number > 0.0)) return;
+    const double s = strcmp(unit, "ms") == 0 ? 1e-3 : strcmp(unit, "us") == 0 ? 1e-6 : 0.0;
+    if (s > 0.0) snprintf(text, 32, "/%.9g", 1.0 / (number * s));
+}
+
+static void tell_lost_time(hci_run_columns *c)
+{
+    char tick[32];
     const char *name = c->has[HCI_RUN_TIME] ? NULL : likely_time(c);
-    if (name != NULL)
-        hci_note_add(c->remark,
-                     "no column is read as the time: if `%.60s` is it, say --column \"time%s=%.60s\"%s", name,
-                     unit_to_say(c, name, "_s"), name,
-                     *unit_to_say(c, name, "_s") != '\0' ? " (time_ms in milliseconds)" : "");
+    if (name == NULL) return;
+    say_tick(name, tick);
+    const char *unit = tick[0] != '\0' ? "_s" : unit_to_say(c, name, unit_of_time(name));
+    if (strlen(name) <= 50) snprintf(c->time_like, HCI_RUN_NAME, "time%.3s=%.50s%.31s", unit, name, tick);
+    hci_note_add(
+        c->remark, "no column is read as the time: if `%.60s` is it, say --column \"time%s=%.60s%s\"%s", name,
+        unit, name, tick, strcmp(unit, "_s") == 0 && tick[0] == '\0' ? " (time_ms in milliseconds)" : "");
 }
 
 /* Neither angle nor voltages: most likely a column under another name. Where voltages would do without an
@@ -520,7 +579,8 @@ static void remedy_of(const hci_run_columns *c, const char *quantity, const char
 /* Whether a column was not read, and there is room to say how. */
 static bool is_left(const hci_run_columns *c, size_t column)
 {
-    return !c->used[column] && strlen(hci_csv_name(c->csv, column)) + 20 < HCI_RUN_NAME;
+    return !c->used[column] &&
+           strlen(hci_csv_name(c->csv, column)) + 10 + sizeof HCI_RUN_DIGITS_PER_A < HCI_RUN_NAME;
 }
 
 void hci_run_columns_torque_like(const hci_run_columns *c, char text[HCI_RUN_NAME])
@@ -559,10 +619,13 @@ void hci_run_columns_current_like(const hci_run_columns *c, char text[HCI_RUN_NA
         if (!is_left(c, column) ||
             !hci_name_words_like(HCI_LIKE_CURRENT, name, hci_csv_row_unit(c->csv, column)))
             continue;
+        const bool is_digits = hci_csv_is_sixteen_bits(name);
         remedy_of(c, axis, "_A", name, remedy);
+        if (is_digits) strcat(remedy, HCI_RUN_DIGITS_PER_A);
         if (text[0] == '\0' && axis[1] == 'q') memcpy(text, remedy, sizeof remedy);
-        hci_note_add(c->remark, "%s is a current that was not read: if it is i_%c, add --column '%s'",
-                     hci_quote(name, quoted), axis[1], remedy);
+        hci_note_add(c->remark, "%s is a current that was not read: if it is i_%c, add --column '%s'%s",
+                     hci_quote(name, quoted), axis[1], remedy,
+                     is_digits ? ", with what the firmware has for 1 A, which the numbers do not tell" : "");
     }
 }
 

@@ -375,6 +375,49 @@ static void test_a_quotient_of_another_quantity(void)
     text_has("a unit that is none of `iq_A`", note.text);
 }
 
+/* A firmware's 16 bits: a turn has 65536, an ampere nobody knows how many. */
+static void test_numbers_of_16_bits(void)
+{
+    files_write(path, "Angle (s16degree),I_Q (s16A),torque_Nm\n0,10,1\n-16384,20,2\n3,30,3\n");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_run());
+    text_has("say --column \"theta_m=Angle (s16degree)/65536\"", note.text);
+    add("theta_m=Angle (s16degree)/65536");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    TEST_ASSERT_EQUAL_STRING("iq_A=I_Q (s16A)" HCI_RUN_DIGITS_PER_A, run.current_like);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, -0.5 * REF_PI, run.theta_m_rad[1]);
+    add("iq_A=I_Q (s16A)/10");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    hci_column_names_release(&names);
+    add("theta_m=Angle (s16degree)/65536");
+    add("iq_mA=I_Q (s16A)");
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, read_run());
+    text_has("16 bits of a firmware and in no unit", note.text);
+}
+
+/* Where no time is read, a column that goes on and speaks of it is named. */
+static void test_a_time_that_was_not_read(void)
+{
+    static const char *const CASES[][2] = {{"unix", "time_s=unix"},
+                                           {"ms", "time_ms=ms"},
+                                           {"t_microsec", "time_us=t_microsec"},
+                                           {"tick10ms", "time_s=tick10ms/100"},
+                                           {"tick125us", "time_s=tick125us/8000"},
+                                           {"ticks", "time_s=ticks/TICKS_PER_S"}};
+    for (size_t k = 0; k < sizeof CASES / sizeof *CASES; ++k) {
+        char text[160];
+        snprintf(text, sizeof text, "%s,theta_m_rad,torque_Nm\n5,0.1,1\n6,0.2,2\n6,0.3,3\n", CASES[k][0]);
+        files_write(path, text);
+        TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+        TEST_ASSERT_EQUAL_STRING(CASES[k][1], run.time_like);
+    }
+    files_write(path, "unix,theta_m_rad,torque_Nm\n5,0.1,1\n6,0.2,2\n5,0.3,3\n");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    TEST_ASSERT_EQUAL_STRING("", run.time_like);
+    files_write(path, "unix,theta_m_rad,torque_Nm\n5,0.1,1\n5,0.2,2\n5,0.3,3\n");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+    TEST_ASSERT_EQUAL_STRING("", run.time_like);
+}
+
 /* Currents and speeds that go by names which are not known are named with what reads them. */
 static void test_currents_and_speeds_that_were_not_read(void)
 {
@@ -529,6 +572,8 @@ int main(void)
     RUN_TEST(test_counts_by_their_numbers);
     RUN_TEST(test_a_column_over_a_number);
     RUN_TEST(test_a_quotient_of_another_quantity);
+    RUN_TEST(test_numbers_of_16_bits);
+    RUN_TEST(test_a_time_that_was_not_read);
     RUN_TEST(test_currents_and_speeds_that_were_not_read);
     RUN_TEST(test_what_is_said_comes_first);
     RUN_TEST(test_a_table_beside_the_recording_and_one_beside_the_list);

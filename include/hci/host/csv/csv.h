@@ -74,8 +74,12 @@ hci_status hci_csv_give_counts(hci_csv *csv, const char *name, size_t column, do
 /* Is a column, by its name, an encoder's counts? */
 bool hci_csv_counts(const char *name);
 
-/* Is it by its numbers: whole ones that go over more than 360, or from 0 to the last before a power of two?
- * of_turn: out, that power; 0: not told. O(rows). */
+/* Does it say that its numbers are the 16 bits of a firmware ("s16degree", "int16"), of whatever quantity: a
+ * turn is then 65536 of them, and what an ampere is the firmware knows alone? */
+bool hci_csv_is_sixteen_bits(const char *name);
+
+/* Is it by its numbers, or by those 16 bits: whole ones that go over more than 360, or from 0 to the last
+ * before a power of two? of_turn: out, that power; 0: not told. O(rows). */
 bool hci_csv_is_counted(const hci_csv *csv, size_t column, double *of_turn);
 
 /* What a column `order` counts periods of. */

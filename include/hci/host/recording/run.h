@@ -17,6 +17,9 @@ extern "C" {
 /* The electrical order up to which cogging torque is looked at where nothing is said. */
 #define HCI_USUAL_ORDER 60.0
 
+/* What stands behind the column in current_like, where its numbers are digits of a firmware. */
+#define HCI_RUN_DIGITS_PER_A "/DIGITS_PER_A"
+
 /* Where the torque of a run comes from. */
 typedef enum {
     HCI_TORQUE_NONE,     /* neither of the following */
@@ -105,6 +108,7 @@ typedef struct {
     char torque_like[HCI_RUN_NAME];  /* no torque was read, and this, as --column takes it, may read one that
                                       * stands in the file; "": none */
     char current_like[HCI_RUN_NAME]; /* the same of i_q, where no current was read */
+    char time_like[HCI_RUN_NAME];    /* the same of the time, where none was read */
     char commanded_voltage[HCI_RUN_NAME]; /* header of a v_q that was not used, since no current was recorded
                                            * beside it; "": none */
     double commanded_unit_V;              /* a 1 of that column in V; 0: none */
