@@ -40,9 +40,9 @@ awk -F, 'BEGIN { print "Timestamp,Mechanical Angle (s16degree),I_Q (s16A),SPEED_
 run 1 tune digits.csv $motor -o digits
 says "add --column 'theta_m=Mechanical Angle \(s16degree\)/65536'" \
     "No current was read: if the column \`I_Q \(s16A\)\` is i_q, add --column 'iq_A=I_Q \(s16A\)/DIGITS_PER_A', with what the firmware has for 1 A"
-sed '1s/(s16degree)/counts/' digits.csv >plain.csv # by a time in another unit a turn would have 65 counts, less than the column has
+sed '1s/Mechanical Angle (s16degree)/enc counts/' digits.csv >plain.csv # by a time in another unit a turn would have 65 counts, less than the column has
 run 1 tune plain.csv $motor -o plain
-says "add --column 'theta_m=Mechanical Angle counts/COUNTS'"
+says 'counts/COUNTS'
 angle='theta_m=Mechanical Angle (s16degree)/65536'
 run 3 tune digits.csv $motor --column "$angle" --column 'iq_A=I_Q (s16A)' -o whole
 says 'expected how many of them are 1 of the quantity, which the firmware knows; write iq_A=I_Q \(s16A\)/NUMBER'
@@ -70,5 +70,12 @@ says '`millis` is read as the time, in ms' '  order 12: 0\.00(4|39)[0-9]* ± '
 slow_log time.csv unix,theta_m_rad,speed_rad_per_s,iq_A -1,1,1,1 # what goes back is no time
 run 1 tune time.csv $motor -o back
 says "No time was read: name its column by --column 'time_s=COLUMN'"
+
+# ---- a speed of a slower channel, in one row of twenty
+
+slow_log every.csv 'time_s,Winkel [rad],Drehzahl [1/min],iq_A' 1,1,9.5492966,1
+awk -F, -v OFS=, 'NR > 1 && NR % 20 != 2 { $3 = "" } 1' every.csv >sparse.csv
+run 0 tune sparse.csv $motor -o sparse
+says 'as of a slower' '`Winkel \[rad\]` is the mechanical angle' '  order 12: 0\.00(4|39)[0-9]* ± '
 
 finish

@@ -71,12 +71,20 @@ static hci_status give(hci_csv *csv, size_t column, hci_run_column which, bool i
     return hci_csv_give(csv, as, column, note);
 }
 
+/* A speed of a slower channel holds until its next number. */
+static void hold(double *x, size_t n)
+{
+    for (size_t k = 1; k < n; ++k)
+        if (!isfinite(x[k])) x[k] = x[k - 1];
+}
+
 static hci_status compare(hci_csv *csv, size_t column, int pole_pairs, double *x, hci_note *note)
 {
     const size_t n = hci_csv_rows(csv);
     hci_run_column which;
     if (!read(csv, name(HCI_RUN_TIME), x + TIME * n) || !read(csv, name(HCI_RUN_SPEED), x + SPEED * n))
         return HCI_OK;
+    hold(x + SPEED * n, n);
     hci_status status = hci_csv_give(csv, "theta_m", column, note); /* in the unit of the file */
     const bool is_read = !status && read(csv, name(HCI_RUN_THETA_M), x + ANGLE * n);
     if (!status) --csv->given_count;
@@ -170,6 +178,7 @@ static hci_status speed_decide(hci_csv *csv, double *x, hci_note *note)
     if (status || !is_read || !read(csv, name(HCI_RUN_TIME), x + TIME * n) ||
         !read(csv, name(HCI_RUN_SPEED), x + SPEED * n))
         return status;
+    hold(x + SPEED * n, n);
     const char *unit, *as = speed_by_way(ratio_of_ways(x, n), speed.factor, &unit);
     if (as == NULL) return HCI_OK;
     hci_note_add(

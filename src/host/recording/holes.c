@@ -72,6 +72,22 @@ static void say_column(const hci_run_columns *c, hci_run_column which, size_t mi
                  hci_quote(hci_csv_name(c->csv, c->at[which]), quoted), missing, hci_csv_rows(c->csv), what);
 }
 
+static void do_without(hci_run_columns *c, hci_run_column which)
+{
+    c->has[which] = false;
+    c->used[c->at[which]] = true;
+    hci_memory_free(c->ready[which]);
+    c->ready[which] = NULL;
+}
+
+/* A speed of a slower channel, which most rows do not have: angle and time tell it in each. */
+static bool is_sparse(const rows_task *t, hci_run_column which, size_t missing)
+{
+    const bool *has = t->c->has;
+    return (which == HCI_RUN_SPEED || which == HCI_RUN_SPEED_E) && 2 * missing > t->rows &&
+           has[HCI_RUN_TIME] && (has[HCI_RUN_THETA_M] || has[HCI_RUN_THETA_E]);
+}
+
 /* Marks the rows without a number in a column, or does without the column. */
 static void take_column(rows_task *t, hci_run_column which, const hci_csv_hole *hole)
 {
@@ -81,10 +97,11 @@ static void take_column(rows_task *t, hci_run_column which, const hci_csv_hole *
     if (missing == 0) return;
     if (missing == t->rows) {
         say_column(c, which, missing, ", it is not used");
-        c->has[which] = false;
-        c->used[c->at[which]] = true;
-        hci_memory_free(value);
-        c->ready[which] = NULL;
+        do_without(c, which);
+    } else if (is_sparse(t, which, missing)) {
+        say_column(c, which, missing,
+                   ", as of a slower channel: it is left out, angle and time tell the speed");
+        do_without(c, which);
     } else if (which == HCI_RUN_TEMPERATURE) {
         interpolate(value, t->rows);
         say_column(c, which, missing, " and are interpolated");
