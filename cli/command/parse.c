@@ -142,8 +142,32 @@ static hci_status take_option(reader *r, cli_arguments *a, hci_note *note)
     return status;
 }
 
+/* The option behind dashes of other kinds, which word processors make of "--"; -1: none. */
+static int option_behind_dashes(const reader *r, const char *word)
+{
+    static const char DASHES[] =
+        "\xE2\x80\x90 \xE2\x80\x91 \xE2\x80\x92 \xE2\x80\x93 \xE2\x80\x94 \xE2\x88\x92";
+    bool is_other = false;
+    for (;;) {
+        char dash[4] = "";
+        memcpy(dash, word, strnlen(word, 3));
+        const bool is_long = (unsigned char)dash[0] == 0xE2 && dash[2] && strstr(DASHES, dash);
+        if (!is_long && word[0] != '-') break;
+        is_other = is_other || is_long;
+        word += is_long ? 3 : 1;
+    }
+    return is_other && word[0] ? cli_option_find(r->command->options, word, strcspn(word, "=")) : -1;
+}
+
 static hci_status take_word(const reader *r, cli_arguments *a, hci_note *note)
 {
+    const int dashed = option_behind_dashes(r, r->words[r->at]);
+    if (dashed >= 0)
+        return hci_note_set(
+            note, HCI_ERROR_ARGUMENT,
+            "%s: found `%s`, which begins with another dash than `-`, as word processors make "
+            "it; write --%s with two of the keyboard",
+            r->command->name, r->words[r->at], r->command->options[dashed].name);
     if (r->words[r->at][0] == '\0')
         return hci_note_set(note, HCI_ERROR_ARGUMENT,
                             "%s: found an empty word, expected %s; is a variable of the shell not set?",

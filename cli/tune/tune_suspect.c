@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "cli/tune/tune_cover.h"
 #include "cli/tune/tune_recorded.h"
@@ -47,6 +48,11 @@ static hci_status look_into(const char *folder, folder_names *x, hci_note *note)
 hci_status cli_tune_claim_folder(const char *folder, hci_note *note)
 {
     folder_names x;
+    struct stat there;
+    if (stat(folder, &there) == 0 && !S_ISDIR(there.st_mode))
+        return hci_note_set(
+            note, HCI_ERROR_ARGUMENT,
+            "tune: --out %s is a file, expected a new folder for the results; give another name", folder);
     const hci_status status = look_into(folder, &x, note);
     if (status || !x.foreign[0]) return status;
     return hci_note_set(note, HCI_ERROR_ARGUMENT,

@@ -78,4 +78,35 @@ awk -F, -v OFS=, 'NR > 1 && NR % 20 != 2 { $3 = "" } 1' every.csv >sparse.csv
 run 0 tune sparse.csv $motor -o sparse
 says 'as of a slower' '`Winkel \[rad\]` is the mechanical angle' '  order 12: 0\.00(4|39)[0-9]* ± '
 
+# ---- an angle in gon, of 400 to a turn, and a gear that nobody builds
+
+for load in 0 0.3 0.6; do
+    awk -v load="$load" 'BEGIN { srand(3); turn = 6.283185307179586; print "time_s,theta_m_deg,ia_A,ib_A,ic_A,torque_Nm"
+        for (k = 0; k < 4000; ++k) { t = k / 1000; x = 2 * turn * t
+            printf "%.4f,%.4f,%.5f,%.5f,%.5f,%.6f\n", t, x / turn * 400, load * sin(5 * x), load * sin(5 * x - turn / 3), load * sin(5 * x + turn / 3),
+                0.1 * load + 0.008 * sin(60 * x + 0.3) - 0.002 + 0.0005 * (rand() + rand() + rand() - 1.5) } }' >"gon$load.csv"
+done
+run 1 tune gon0.csv gon0.3.csv gon0.6.csv $motor -o gon
+says '^a convention is broken: Most likely the angle of the recordings is in gon' "'theta_m_gon=theta_m_deg'"
+run 1 tune gon0.csv gon0.3.csv gon0.6.csv $motor --column theta_m_gon=theta_m_deg -o read
+check "gon: $(grep -o 'convention is broken' read/summary.json)" [ "$(grep -c 'convention is broken' read/summary.json)" -eq 0 ]
+
+# ---- the force of a load cell on a lever of 150 mm, in g
+
+awk -F, -v OFS=, 'NR == 1 { $2 = "theta_m_gon"; $6 = "load_g" } NR > 1 { $6 *= 680 } 1' gon0.csv >lever.csv
+run 1 tune lever.csv $motor -o lever
+check "no lever" grep -q 'force x lever' lever/summary.json lever/report.html
+run 0 tune lever.csv $motor --column 'torque_Nm=load_g/680' -o lever
+says '  order 12: 0\.00(8|79)[0-9]* ± '
+
+# ---- slips of the command line
+
+run 2 tune gon0.csv –pole-pairs 5 --flux 0.013 -o new
+says 'found `–pole-pairs`, which begins with another dash than `-`.*write --pole-pairs'
+run 2 tune gon0.csv —kv=100 --pole-pairs 5 -o new
+says 'found `—kv=100`, which begins with another dash than `-`.*write --kv'
+run 2 tune gon0.csv $motor -o gon0.3.csv
+says '--out gon0.3.csv is a file, expected a new folder'
+check "the file is gone" [ -s gon0.3.csv ]
+
 finish

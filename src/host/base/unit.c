@@ -73,6 +73,7 @@ static const hci_unit units[] = {
     {"grad", ANGLE, HCI_PI / 180}, /* degrees in German; nobody logs gradians */
     {"degre", ANGLE, HCI_PI / 180},
     {"degres", ANGLE, HCI_PI / 180},
+    {"gon", ANGLE, HCI_PI / 200},
     {"gradi", ANGLE, HCI_PI / 180},
     {"grado", ANGLE, HCI_PI / 180},
     {"grados", ANGLE, HCI_PI / 180},

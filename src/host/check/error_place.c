@@ -277,14 +277,16 @@ static void say_gear(const check_error *error, const check_data *data, hci_check
 }
 
 /* Gears that nobody builds, and units make: the unit that the angle then has. */
-static const char *unit_of_gear(double turns)
+static const char *unit_of_gear(double turns, const char *column)
 {
     static const struct {
         double turns;
         const char *unit;
-    } UNITS[] = {{180.0 / HCI_PI, "rad"}, {360.0, "turn"}, {2.0 * HCI_PI, "turn"}};
+    } UNITS[] = {{180.0 / HCI_PI, "rad"}, {360.0, "turn"}, {2.0 * HCI_PI, "turn"}, {360.0 / 400.0, "gon"}};
+    const bool is_in_degrees = strstr(column, "deg") || strstr(column, "Grad") || strstr(column, "\xC2\xB0");
     for (size_t k = 0; k < sizeof UNITS / sizeof *UNITS; ++k)
-        if (fabs(turns / UNITS[k].turns - 1.0) < 0.003) return UNITS[k].unit;
+        if (fabs(turns / UNITS[k].turns - 1.0) < 0.003 && (is_in_degrees || turns > 1.0))
+            return UNITS[k].unit;
     return NULL;
 }
 
@@ -292,7 +294,7 @@ static const char *unit_of_gear(double turns)
 static void say_unit_of_gear(const check_data *data, const check_place *place, hci_check_finding *finding)
 {
     const double turns = gear_of(data);
-    const char *unit = unit_of_gear(turns);
+    const char *unit = unit_of_gear(turns, place->column);
     if (!unit) return;
     snprintf(
         finding->words, sizeof finding->words,
