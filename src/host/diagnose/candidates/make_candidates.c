@@ -10,6 +10,7 @@
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/candidates/flux_orders.h"
 #include "host/diagnose/candidates/residual_by_speed.h"
+#include "host/diagnose/prepare/lag_told.h"
 
 enum {
     MOST_SLOT_ORDERS = 12, /* orders of slots and poles that are looked into at a time */
@@ -37,6 +38,7 @@ typedef struct {
     size_t capacity;
     double resolved;         /* highest order that the samples tell */
     bool no_current, failed; /* no_current: of no run */
+    bool lag_told;           /* of a torque sensor */
 } builder;
 
 static bool reserve(builder *b)
@@ -74,11 +76,19 @@ static bool needs_current(const hci_effect_type *type, size_t parameter)
                                   (type->parameter[parameter].traits & HCI_PARAMETER_WITH_CURRENT));
 }
 
+/* Whether the recordings may say anything of a term. */
+static bool is_told(const builder *b, size_t parameter)
+{
+    const bool is_lag = parameter < b->type->parameter_count &&
+                        (b->type->parameter[parameter].traits & HCI_PARAMETER_LAG) != 0;
+    return !(b->no_current && needs_current(b->type, parameter)) && (b->lag_told || !is_lag);
+}
+
 /* For hci_effect_proposals: context is a builder. */
 static void add(void *context, const hci_effect_candidate *x)
 {
     builder *b = context;
-    if (x->order > b->resolved || (b->no_current && needs_current(b->type, x->parameter))) return;
+    if (x->order > b->resolved || !is_told(b, x->parameter)) return;
     b->failed = b->failed || !reserve(b);
     if (b->failed) return;
     hci_candidate *s = &b->list->candidate[b->list->count++];
@@ -366,7 +376,9 @@ hci_status hci_candidates_make(const hci_candidates_source *source, const hci_ca
     hci_effect_survey x = survey_of(source);
     builder b = {.list = candidates,
                  .declared = source->declared,
-                 .no_current = source->no_current || !(x.current_A > 0.0)};
+                 .no_current = source->no_current || !(x.current_A > 0.0),
+                 .lag_told = hci_lag_is_told(source->machine, source->runs, source->samples->statistics,
+                                             source->use, source->samples->run_count)};
     hci_candidate_orders lines;
     memset(candidates, 0, sizeof *candidates);
     candidates->reference_current_A = x.reference_current_A;

@@ -5,6 +5,7 @@
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/fit/late_torque.h"
 #include "host/diagnose/fit/resonance.h"
+#include "host/diagnose/prepare/lag_told.h"
 #include "host/diagnose/search/belief.h"
 #include "host/diagnose/search/candidate_models.h"
 #include "host/diagnose/search/companions.h"
@@ -424,10 +425,16 @@ static bool is_denied(const hci_search *s, size_t type)
     return s->denied && s->denied[type];
 }
 
+static bool tells_lag(const hci_regression *e)
+{
+    return hci_lag_is_told(e->machine, e->runs, e->samples->statistics, e->use, e->samples->run_count);
+}
+
 hci_status hci_search_forward(hci_search *s, hci_fitted_model *model, bool *added, hci_note *note)
 {
     comparison c = comparison_from(s, model);
     hci_candidate_models t;
+    const bool lag_told = tells_lag(s->regression);
     hci_status status = models_enriched(s, &model->candidates, &t, note);
     *added = false;
     if (status) return status;
@@ -435,10 +442,10 @@ hci_status hci_search_forward(hci_search *s, hci_fitted_model *model, bool *adde
     status = believed_enter(&c, &t, note);
     hci_candidate_models_release(&t);
     for (size_t r = 0; hci_effect_type_at(r) && !status && !hci_search_is_over(s); ++r)
-        if (hci_effect_type_at(r)->resonance && !is_denied(s, r))
+        if (hci_effect_type_at(r)->resonance && lag_told && !is_denied(s, r))
             status = resonance_enter(&c, hci_effect_type_at(r), note);
     for (size_t r = 0; hci_effect_type_at(r) && !status && !hci_search_is_over(s); ++r)
-        if (hci_effect_type_at(r)->lag && !is_denied(s, r))
+        if (hci_effect_type_at(r)->lag && lag_told && !is_denied(s, r))
             status = lag_enter(&c, hci_effect_type_at(r), note);
     for (size_t r = 0; hci_effect_type_at(r) && !status && !hci_search_is_over(s); ++r)
         if (hci_effect_type_at(r)->late && !is_denied(s, r))

@@ -234,6 +234,21 @@ static void test_without_time_no_delay_and_no_lag(void)
     TEST_ASSERT_EQUAL_UINT64(1, terms_of("torque_sensor", "offset", NULL));
 }
 
+/* The offset of the sensor does not need another speed. */
+static void test_no_lag_at_one_speed(void)
+{
+    for (size_t k = 0; k < RUNS * SAMPLES; ++k) {
+        run[k / SAMPLES].speed_rad_per_s[k % SAMPLES] = 20.0;
+        run[k / SAMPLES].time_s[k % SAMPLES] = run[0].theta_m_rad[k % SAMPLES] / 20.0;
+    }
+    make();
+    TEST_ASSERT_EQUAL_UINT64(0, terms_of("torque_sensor", "time_constant", NULL));
+    TEST_ASSERT_EQUAL_UINT64(1, terms_of("torque_sensor", "offset", NULL));
+    machine.back_emf_count = 2; /* a ripple that is declared */
+    make();
+    TEST_ASSERT_EQUAL_UINT64(1, terms_of("torque_sensor", "time_constant", NULL));
+}
+
 /* As many parts of the law of friction as speeds that differ, of runs in use. */
 static void test_friction_has_as_many_parts_as_speeds(void)
 {
@@ -530,6 +545,7 @@ int main(void)
     RUN_TEST(test_noise_is_no_current);
     RUN_TEST(test_a_small_current_is_one);
     RUN_TEST(test_without_time_no_delay_and_no_lag);
+    RUN_TEST(test_no_lag_at_one_speed);
     RUN_TEST(test_friction_has_as_many_parts_as_speeds);
     RUN_TEST(test_the_magnets_need_a_temperature);
     RUN_TEST(test_without_current_no_saturation);
