@@ -41,9 +41,10 @@ static void say_bound(const cli_tuning *t, double before_Nm, double after_Nm, ch
     else if (e->peak_to_peak_Nm < before_Nm)
         snprintf(
             text, size,
-            "A ripple of %.3g N·m from peak to peak falls to at most %.3g N·m on the machine (95 %%), of "
+            "A ripple of %.3g N·m from peak to peak falls to at most %.3g N·m on the machine (95 %%)%s, of "
             "which the table makes %.2g",
             before_Nm, hci_ripple_bound_as_said(e->peak_to_peak_Nm),
+            cli_tune_hangs_on_lag(t) ? " if the torque sensor is in time, which one speed does not tell" : "",
             hci_ripple_bound_as_said(e->table_peak_to_peak_Nm));
     else
         snprintf(text, size,
@@ -568,8 +569,6 @@ static void append_of_torque(cli_tuning *t)
         append(t, "Orders above %.3g were not looked at, since the samples lie too far apart",
                t->highest_order);
     append_of_scale(t);
-    if (cli_tune_hangs_on_lag(t))
-        append(t, "The torque sensor is taken to be in time, which one speed does not tell");
     if (t->mains_Hz > 0.0 && t->is_solved)
         append(t, "Order %s is %.0f Hz at this one speed, as hum of the mains is: another speed tells",
                cli_tune_order_words(t, t->mains_order, order), t->mains_Hz);
