@@ -23,6 +23,7 @@
 #include "host/diagnose/search/backward.h"
 #include "host/diagnose/uncertainty.h"
 #include "host/machine/torque_constant.h"
+#include "host/numeric/statistics.h"
 #include "host/waveform/sensor_zero.h"
 
 #define RESOLUTION 5e-4 /* of the largest rms torque */
@@ -586,16 +587,22 @@ static double left_of_run_Nm(const hci_diagnosis *d, size_t run)
     return fmin(sum, BY_CHANCE * sqrt(square));
 }
 
-static double left_orders_Nm(const hci_diagnosis *d)
+/* The median over the recordings: of one alone, as of the largest current, most currents have less. */
+static hci_status left_orders_find(const hci_diagnosis *d, double *left_Nm, hci_note *note)
 {
-    double most_Nm = 0.0;
-    for (size_t r = 0; r <= d->runs; ++r) /* one that disagrees keeps its number */
-        most_Nm = fmax(most_Nm, left_of_run_Nm(d, r));
-    return most_Nm;
+    const size_t runs = d->runs + (d->odd.file != NULL); /* one that disagrees keeps its number */
+    double *of_run = hci_memory_new(runs + 1, sizeof *of_run);
+    *left_Nm = 0.0;
+    if (!of_run) return hci_note_memory(note, NULL, "what the model leaves");
+    for (size_t r = 0; r < runs; ++r)
+        of_run[r] = left_of_run_Nm(d, r);
+    if (runs > 0) *left_Nm = hci_median(of_run, runs);
+    hci_memory_free(of_run);
+    return HCI_OK;
 }
 
 /* Goes with the corrected machine, whether or not anything is stated of it. */
-static void origin_fill(const task *t, hci_diagnosis *d)
+static hci_status origin_fill(const task *t, hci_diagnosis *d, hci_note *note)
 {
     hci_machine_origin *origin = &d->uncertainty.origin;
     snprintf(origin->verdict, sizeof origin->verdict, "%s", hci_diagnosis_verdict_name(d->verdict));
@@ -605,7 +612,7 @@ static void origin_fill(const task *t, hci_diagnosis *d)
     origin->turning_load_Nm = hci_turning_load_Nm(&t->machine->model, &d->effects.list, t->runs);
     origin->sensor_zero_Nm =
         hci_sensor_zero_Nm(&t->machine->model, &d->effects.list, t->runs, d->zeros_read_A);
-    origin->left_Nm = left_orders_Nm(d);
+    return left_orders_find(d, &origin->left_Nm, note);
 }
 
 static bool is_usable(const hci_runs *runs, size_t k)
@@ -832,9 +839,9 @@ hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *decl
     if (fitted == 0)
         return hci_note_set(note, HCI_ERROR_INPUT, "no run has the role `fit`; give it to at least one");
     const task all = {machine, declared, runs, options, NULL, NULL, NULL, 0.0};
-    const hci_status status = diagnose_runs(&all, diagnosis, note);
+    hci_status status = diagnose_runs(&all, diagnosis, note);
+    if (!status) status = origin_fill(&all, diagnosis, note);
     if (status) return status;
-    origin_fill(&all, diagnosis);
     return diagnosis->verdict >= HCI_DIAGNOSIS_AMBIGUOUS || diagnosis->search != HCI_WORK_COMPLETE ||
                    diagnosis->odd.file
                ? HCI_NOT_REACHED

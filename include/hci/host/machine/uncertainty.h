@@ -35,8 +35,8 @@ typedef struct {
                                 * motor, and no recording tells which; 0: none */
     double sensor_zero_Nm;     /* amplitude of the torque of electrical order 1, which zeros of the current
                                 * sensors     that are off make as well as the motor, likewise; 0: none */
-    double left_Nm; /* largest ripple, peak to peak, of orders that stand out of the noise of a recording and
-                     * that the model does not have; 0: none */
+    double left_Nm; /* ripple, peak to peak, the median over the recordings, of orders that stand out of their
+                     * noise and that the model does not have; 0: none */
 } hci_machine_origin;
 
 /* Whether it has not explained its recordings: partly explained, unknown, or a search that ended early. Not
