@@ -7,12 +7,12 @@
 #include "cli/commands.h"
 #include "cli/terminal/say.h"
 #include "cli/terminal/terminal.h"
-#include "cli/tune/tune_conclude.h"
-#include "cli/tune/tune_found.h"
 #include "cli/tune/tune_options.h"
 #include "cli/tune/tune_sensor_zero.h"
 #include "cli/tune/tune_show.h"
 #include "cli/tune/tune_size.h"
+#include "cli/tune/words/tune_conclude.h"
+#include "cli/tune/words/tune_found.h"
 
 static hci_status steps(const cli_arguments *a, cli_tuning *t, hci_note *note)
 {

@@ -1,4 +1,4 @@
-#include "cli/tune/tune_unknown.h"
+#include "cli/tune/words/tune_unknown.h"
 
 #include <math.h>
 #include <stdio.h>

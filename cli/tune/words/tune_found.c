@@ -1,4 +1,4 @@
-#include "cli/tune/tune_found.h"
+#include "cli/tune/words/tune_found.h"
 
 #include <math.h>
 #include <stdio.h>

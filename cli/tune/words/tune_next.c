@@ -1,4 +1,4 @@
-#include "cli/tune/tune_next.h"
+#include "cli/tune/words/tune_next.h"
 #include "cli/tune/tune_cover.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-#include "cli/tune/tune_conclude.h"
+#include "cli/tune/words/tune_conclude.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -6,11 +6,11 @@
 
 #include "cli/tune/tune_cover.h"
 #include "cli/tune/tune_facts.h"
-#include "cli/tune/tune_heading.h"
-#include "cli/tune/tune_next.h"
 #include "cli/tune/tune_size.h"
 #include "cli/tune/tune_suspect.h"
-#include "cli/tune/tune_unknown.h"
+#include "cli/tune/words/tune_heading.h"
+#include "cli/tune/words/tune_next.h"
+#include "cli/tune/words/tune_unknown.h"
 
 static const char *verdict_of(const cli_tuning *t)
 {

@@ -1,0 +1,176 @@
+#include "cli/tune/words/tune_caveats.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/tune/tune_facts.h"
+#include "cli/tune/tune_options.h"
+#include "cli/tune/tune_read.h"
+#include "cli/tune/tune_recorded.h"
+#include "cli/tune/tune_size.h"
+
+/* One more thing that a reader of the heading has to know: a sentence without its full stop. */
+void cli_tune_caveat(cli_tuning *t, const char *format, ...)
+{
+    char words[1024];
+    va_list values;
+    va_start(values, format);
+    vsnprintf(words, sizeof words, format, values);
+    va_end(values);
+    if (words[0] && words[1] != '_') words[0] = (char)toupper((unsigned char)words[0]);
+    hci_tuning_say(&t->tuning, HCI_TUNING_CAVEATS, "%s", words);
+}
+
+/* What is not understood because it is not of one motor. */
+static void append_of_two(cli_tuning *t)
+{
+    cli_tune_two_ripples two;
+    if (!t->is_solved || !hci_expected_ripple_is_doubtful(&t->solution.expected) ||
+        !cli_tune_two_motors(t, &two))
+        return;
+    cli_tune_caveat(
+        t,
+        "The ripple of %.80s comes %d times a turn and that of %.80s %d times, and neither has the "
+        "other's: "
+        "are both logs of one motor, with the angle of its shaft?",
+        cli_tune_name_of(t, two.first), two.first_order, cli_tune_name_of(t, two.second), two.second_order);
+}
+
+/* Of the torque that is rated or asked for, from which on one without a current is more than friction. */
+#define A_LOAD 0.2
+
+/* A recording with the mean torque of a load, by a sensor, and no current; NULL: none. */
+static const hci_run *loaded_without_current(const cli_tuning *t, size_t *count)
+{
+    const hci_run *first = NULL;
+    const double asked_Nm = t->arguments->given[TUNE_TORQUE] ? t->arguments->number[TUNE_TORQUE] : 0.0;
+    const double most_Nm = fmax(cli_tune_rated_Nm(t), asked_Nm);
+    for (size_t k = *count = 0; k < t->runs.count && most_Nm > 0.0; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        double mean_Nm = 0.0;
+        if (r->torque_source != HCI_TORQUE_MEASURED || !r->torque_Nm || cli_tune_rms_A(r) > 0.0) continue;
+        for (size_t n = 0; n < r->count; ++n)
+            mean_Nm += r->torque_Nm[n] / (double)r->count;
+        if (fabs(mean_Nm) < A_LOAD * most_Nm) continue;
+        if (!first) first = r;
+        ++*count;
+    }
+    return first;
+}
+
+/* Currents that are in the logs under a name of their own, or in none of their columns. */
+static void append_of_unread(cli_tuning *t)
+{
+    const char *like = cli_tune_current_like(t);
+    size_t count = 0;
+    char column[HCI_RUN_NAME] = "";
+    if (like) cli_tune_column_of(like, column);
+    const hci_run *loaded = like ? NULL : loaded_without_current(t, &count);
+    for (size_t k = 0; k < t->runs.count && like; ++k)
+        count += t->runs.run[k].current_like[0] != '\0';
+    if (!t->is_solved) return;
+    if (like)
+        cli_tune_caveat(
+            t,
+            "No current was read in %zu of %zu logs, and it was taken as 0: if the column `%s` is i_q, add "
+            "--column '%s'",
+            count, t->runs.count, column, like);
+    else if (loaded)
+        cli_tune_caveat(
+            t,
+            "No current was read in %zu of %zu logs, %.80s and such, though their torque is that of a "
+            "load: it "
+            "was taken as 0, and what they show is not that of a machine without current",
+            count, t->runs.count, cli_tune_name_of(t, (size_t)(loaded - t->runs.run)));
+}
+
+/* Voltages that drives command, where a current flows by them that nobody recorded. */
+static void append_of_command(cli_tuning *t)
+{
+    const hci_run *r = NULL;
+    char ohm[32] = "OHM";
+    for (size_t k = 0; k < t->runs.count && !r; ++k)
+        if (t->runs.run[k].commanded_voltage[0]) r = &t->runs.run[k];
+    if (!r) return;
+    if (t->declared.resistance_ohm > 0.0)
+        snprintf(ohm, sizeof ohm, "%.6g", t->declared.resistance_ohm / r->commanded_unit_V);
+    cli_tune_caveat(
+        t,
+        "`%s` is a voltage that the drive commands and no back-EMF, and the current that flows by it is in "
+        "no column: of a shaft that is turned slowly it is that voltage over the resistance of a phase, as "
+        "far as the back-EMF is small beside it (what that adds looks like friction): --column "
+        "'iq_A=%s/%s' --holding",
+        r->commanded_voltage, r->commanded_voltage, ohm);
+}
+
+/* Of a constant, that sheets and drives are off by and that is not spoken of. */
+#define NEAR_DRIVE 0.1
+
+/* The torque that a drive has computed has a constant in it, too. */
+static void append_of_drive(cli_tuning *t)
+{
+    const double sheet = t->reading.run.torque_constant_Nm_per_A;
+    for (size_t k = 0; k < t->runs.count && t->is_solved && t->is_own && !t->has_emf; ++k) {
+        const double drive = fabs(t->runs.run[k].drive_constant_Nm_per_A);
+        if (!(drive > 0.0) || fabs(drive / sheet - 1.0) < NEAR_DRIVE) continue;
+        cli_tune_caveat(
+            t,
+            "By its own torque in %.80s the drive counts on %.3g N·m per A of i_q, and %s makes %.3g: "
+            "one of "
+            "the two is off, and all that is said in N·m with it",
+            cli_tune_name_of(t, k), drive, cli_tune_constant_option(t), sheet);
+        return;
+    }
+}
+
+static void append_of_time(cli_tuning *t)
+{
+    const hci_run *r = cli_tune_lacks_time(t);
+    if (!r || t->has_slip) return;
+    if (r->time_like[0])
+        cli_tune_caveat(
+            t,
+            "No time was read: if the column `%.*s` is it, add --column '%s'; or --holding, if the shaft "
+            "was turned slowly by control",
+            (int)strcspn(strchr(r->time_like, '=') + 1, "/"), strchr(r->time_like, '=') + 1, r->time_like);
+    else
+        cli_tune_caveat(
+            t, "No time was read: name its column by --column 'time_s=COLUMN' (time_ms, time_us; COLUMN/1000 "
+               "of a counter of 1000 a second); or add --holding, if the shaft was turned slowly by control");
+}
+
+/* Columns that nobody named, and that may be what is missing. */
+static void append_of_columns(cli_tuning *t)
+{
+    const char *torque = cli_tune_lacks_torque(t) ? cli_tune_torque_like(t) : NULL;
+    const char *current = !t->has_slip && !torque ? cli_tune_current_like(t) : NULL;
+    if (torque)
+        cli_tune_caveat(t, "If the column `%s` is a torque, add --column '%s'", strchr(torque, '=') + 1,
+                        torque);
+    if (current) {
+        char column[HCI_RUN_NAME];
+        cli_tune_column_of(current, column);
+        cli_tune_caveat(t, "No current was read: if the column `%s` is i_q, add --column '%s'%s", column,
+                        current,
+                        strstr(current, HCI_RUN_DIGITS_PER_A)
+                            ? ", with what the firmware has for 1 A, which the numbers do not tell"
+                            : "");
+    }
+}
+
+void cli_tune_column_caveats(cli_tuning *t)
+{
+    append_of_time(t);
+    append_of_columns(t);
+}
+
+void cli_tune_log_caveats(cli_tuning *t)
+{
+    append_of_unread(t);
+    append_of_two(t);
+    append_of_command(t);
+    append_of_drive(t);
+}

@@ -1,0 +1,283 @@
+#include "cli/tune/words/tune_caveats.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "cli/tune/tune_facts.h"
+#include "cli/tune/tune_size.h"
+#include "cli/tune/tune_suspect.h"
+#include "hci/host/waveform/turning_load.h"
+
+/* Of the bound, or of the ripple where there is none, that order 1 may be and not be spoken of. */
+#define MUCH_OF_ZEROS 0.1
+
+/* Order 1 that may be of the current sensors: a table that takes it away adds it where they are right, and
+ * one that leaves it to them leaves it where it is cogging torque. */
+static void append_of_zeros(cli_tuning *t)
+{
+    const double zero_Nm = t->diagnosis.uncertainty.origin.sensor_zero_Nm,
+                 zero_A = zero_Nm / t->reading.run.torque_constant_Nm_per_A;
+    const hci_expected_ripple *e = &t->solution.expected;
+    double before_Nm, after_Nm;
+    if (!t->is_solved) return;
+    hci_tuning_swing(&t->solution, &before_Nm, &after_Nm);
+    const double whole_Nm = e->state == HCI_RIPPLE_KNOWN ? e->peak_to_peak_Nm : before_Nm;
+    if (!(zero_Nm > 0.0) || 2.0 * zero_Nm < MUCH_OF_ZEROS * whole_Nm) return;
+    const bool is_taken = hci_angle_torque_Nm(&t->declared.model, &t->diagnosis.effects.list, 1.0) >= zero_Nm;
+    cli_tune_caveat(
+        t,
+        is_taken ? "Order 1, %.2g N·m, is cogging torque, or zeros of the current sensors that are off by "
+                   "up to %.2g A and no torque of the motor, which these logs do not tell apart: the table "
+                   "takes it away for sensors as they were, and adds it where they are nulled or corrected"
+                 : "Order 1, %.2g N·m, is taken for zeros of the current sensors, %.2g A, and may be "
+                   "cogging torque, which these logs do not tell apart: the table leaves it then",
+        zero_Nm, zero_A);
+}
+
+/* What else than the motor may be in the logs. */
+static void append_of_logs(cli_tuning *t)
+{
+    if (t->once_a_turn_Nm > 0.0 && t->is_solved)
+        cli_tune_caveat(
+            t,
+            "%.3g N·m of the ripple come once or twice a turn, and a load on the shaft makes that as well "
+            "as the "
+            "motor: without that load the table adds them",
+            t->once_a_turn_Nm);
+    if (cli_tune_clipped(t) > 0 && t->is_solved)
+        cli_tune_caveat(t, "Currents in %zu of %zu logs are clipped, and what they tell is too small",
+                        cli_tune_clipped(t), t->runs.count);
+    if (cli_tune_torque_clipped(t) > 0 && t->is_solved)
+        cli_tune_caveat(t, "The torque in %zu of %zu logs is clipped, and what lies beyond is missing",
+                        cli_tune_torque_clipped(t), t->runs.count);
+}
+
+/* Of the gains, that are no matter. */
+#define LEAST_GAIN 0.002
+
+/* What readings of the phases are divided by: of two of them or all. */
+static bool are_gains(const hci_effect *e)
+{
+    for (size_t j = 0; j < e->count && e->type->correction; ++j)
+        if (e->type->correction[e->term[j].parameter].plus != 1.0) return false;
+    return (e->count == 2 || e->count == 3) && e->type->correction;
+}
+
+/* The mean of the three gains, less 1, which has an equal in the back-EMF whatever their ratios; 0: none. */
+static double common_gain(const cli_tuning *t)
+{
+    const hci_effects *list = &t->diagnosis.effects.list;
+    for (size_t k = 0; k < list->count; ++k) {
+        const hci_effect *e = &list->effect[k];
+        double mean = 0.0;
+        if (!are_gains(e)) continue;
+        for (size_t j = 0; j < e->count; ++j)
+            mean += e->term[j].value / 3.0;
+        return fabs(mean) > LEAST_GAIN ? mean : 0.0;
+    }
+    return 0.0;
+}
+
+/* Torque is back-EMF times current: a sensor of the torque does not tell a share of the one from one of the
+ * other, nor from one of its own. */
+static void append_of_gain(cli_tuning *t)
+{
+    const double gain = common_gain(t), other = -gain / (1.0 + gain);
+    if (fabs(gain) > 0.0 && t->has_emf)
+        cli_tune_caveat(
+            t,
+            "%.2g %% are common to the gains of all three currents, and may be the torque sensor's "
+            "instead, which "
+            "reads %.2g %% too %s then: the back-EMF is from voltages of these logs, and nothing in them "
+            "tells the two apart",
+            100.0 * fabs(gain), 100.0 * fabs(other), other < 0.0 ? "little" : "much");
+    else if (fabs(gain) > 0.0)
+        cli_tune_caveat(
+            t,
+            "%.2g %% are common to the gains of all three currents, and may be the back-EMF's instead, which "
+            "is %.2g %% %s then: a torque sensor does not tell the two apart, and voltages of the open "
+            "machine do",
+            100.0 * fabs(gain), 100.0 * fabs(other), other < 0.0 ? "smaller" : "larger");
+    if (strstr(t->solution.corrections, " A from i_"))
+        cli_tune_caveat(
+            t, "The offsets of the currents are those of the logs: a drive that nulls its sensors at each "
+               "start has others");
+}
+
+/* How early a channel is read that a drive can correct, s; 0: none is. */
+static double early_s(const cli_tuning *t)
+{
+    const hci_effects *list = &t->diagnosis.effects.list;
+    for (size_t k = 0; k < list->count; ++k) {
+        const hci_effect *e = &list->effect[k];
+        for (size_t j = 0; e->type->late && j < e->count; ++j)
+            if (e->type->correction[e->term[j].parameter].late_alone && e->term[j].value < 0.0)
+                return -e->term[j].value;
+    }
+    return 0.0;
+}
+
+/* Nothing is read before it is true. */
+static void append_of_early(cli_tuning *t)
+{
+    const double early = early_s(t);
+    if (early > 0.0)
+        cli_tune_caveat(
+            t,
+            "The angle seems to be read %.2g s before it is true, as no sensor does: most likely the "
+            "torque sensor is late by as much, and nothing is corrected for it; where the drive looks "
+            "ahead, or "
+            "reads its currents late, add to the angle the speed times -%.5g s, and logs at other speeds "
+            "and loads tell which it is",
+            early, early);
+}
+
+static void append_of_zero(cli_tuning *t)
+{
+    if (fabs(t->open_turn_deg) > 0.0 && t->is_solved)
+        cli_tune_caveat(
+            t,
+            "The back-EMF is found turned by %.1f ± %.1f degrees%s, which a saliency with its "
+            "saturation may do as well as another zero: %s with i_d of both signs at two currents, or "
+            "voltages of the open machine, tell them apart",
+            t->open_turn_deg, t->open_turn_error_deg, t->turn_is_of_dq ? " against i_d and i_q" : "",
+            t->turn_is_of_dq ? "phase currents" : "runs");
+    if (fabs(t->turned_deg) > 0.0 && t->is_solved)
+        cli_tune_caveat(
+            t,
+            "The electrical zero of the logs is %.1f ± %.1f degrees off by the torques, unless the machine "
+            "has a saliency that nobody declared: begin again with --angle-offset %.1f",
+            fabs(t->turned_deg), t->turned_error_deg, cli_tune_offset_to_give(t));
+}
+
+/* What keeps the currents from being as wanted: a limit that binds, or the order that is off most. */
+static void append_of_miss(cli_tuning *t)
+{
+    const hci_solution *s = &t->solution;
+    if (!cli_tune_is_missed(t) || t->size == CLI_TUNE_EXCESS) return;
+    for (size_t k = 0; k < s->limit_count; ++k)
+        if (s->limit[k].binds) {
+            cli_tune_caveat(t, "The torque is not as wanted, since the currents keep a limit, %s %.4g A",
+                            hci_limit_kind_name(s->limit[k].kind), s->limit[k].limit);
+            return;
+        }
+    cli_tune_caveat(
+        t, "The torque is not as wanted: order %.4g is off by %.2g N·m, and more than %.2g N·m counts",
+        s->worst_order, s->worst_error_Nm, fmax(s->tolerance_Nm, 0.5 * t->cut_Nm));
+}
+
+/* A limit that currents found angle by angle do not keep. */
+static void append_of_excess(cli_tuning *t)
+{
+    const hci_solution *s = &t->solution;
+    for (size_t k = 0; k < s->limit_count && !s->within_limits; ++k) {
+        const hci_limit *l = &s->limit[k];
+        if (!(l->value > l->limit)) continue;
+        cli_tune_caveat(t,
+                        "The currents do not keep a limit, %s %.4g %s, but take %.4g: the table is not for "
+                        "continuous use, and --torque with less is",
+                        hci_limit_kind_name(l->kind), l->limit,
+                        l->kind == HCI_LIMIT_VOLTAGE  ? "V"
+                        : l->kind == HCI_LIMIT_COPPER ? "A²"
+                                                      : "A",
+                        l->value);
+        return;
+    }
+}
+
+/* All before is of currents that flow as the table has them. */
+static void append_of_loop(cli_tuning *t)
+{
+    char words[512];
+    if (!t->is_solved || t->size == CLI_TUNE_EXCESS || cli_tune_is_of_no_use(t) || cli_tune_is_never_seen(t))
+        return;
+    hci_loop_reach_words(&t->solution.loop, words, sizeof words);
+    if (words[0]) cli_tune_caveat(t, "The figures are of currents that flow as in the table: %s", words);
+}
+
+/* What the size and the sign of a torque make doubtful. */
+static void append_of_doubt(cli_tuning *t)
+{
+    if (t->has_sensor_zero && t->is_solved)
+        cli_tune_caveat(
+            t,
+            "The torque without current is %.3g N·m with the motion on average, where friction brakes: "
+            "that "
+            "is taken for the zero of its sensor; if its sign is the other one instead (--column "
+            "torque=-COLUMN) the table doubles the ripple; one direction does not tell, a turn back does",
+            t->drives_Nm);
+    else if (t->drives_Nm > 0.0 && t->is_solved)
+        cli_tune_caveat(
+            t,
+            "The torque without current is %.3g N·m with the motion on average, where friction brakes: "
+            "either its zero is off, or its sign is the other one (--column torque=-COLUMN) and the table "
+            "doubles the ripple; one direction does not tell, a turn back does",
+            t->drives_Nm);
+    if (t->size == CLI_TUNE_LARGE)
+        cli_tune_caveat(
+            t,
+            "Without current the torque varies by %.3g N·m, %.3g times the rated torque, and few motors "
+            "have so much: is the torque in N·m, and not in N·cm or lbf·in, and is Kv right?",
+            t->open_swing_Nm, t->open_swing_Nm / cli_tune_rated_Nm(t));
+}
+
+static void append_of_sheet(cli_tuning *t)
+{
+    char words[512];
+    if (cli_tune_say_sheet(t, words, sizeof words)) cli_tune_caveat(t, "%s", words);
+}
+
+/* Ratings and constants that do not fit what is in the logs. */
+static void append_of_ratings(cli_tuning *t)
+{
+    if (cli_tune_is_far_beyond(t))
+        cli_tune_caveat(
+            t,
+            "The peak current of the table, %.3g A, is %.2g times the largest recorded one, %.3g A: are "
+            "the rated "
+            "current and the torque in A and N·m?",
+            t->solution.peak_phase_current_A,
+            t->solution.peak_phase_current_A / cli_tune_largest_recorded_A(t),
+            cli_tune_largest_recorded_A(t));
+    if (cli_tune_strange_rpm(t) > 0.0)
+        cli_tune_caveat(
+            t,
+            "What the resistance takes at the rated current would turn this motor at %.2g rpm: are %s, "
+            "--resistance and --rated-current of this motor and in their units?",
+            cli_tune_strange_rpm(t), cli_tune_constant_option(t));
+    if (cli_tune_is_below_idle(t))
+        cli_tune_caveat(
+            t,
+            "By this Kv %.3g N·m take %.3g A, and the shaft without a load took up to %.3g A: is %s the "
+            "right number in its unit, and the torque in N·m?",
+            t->mean_Nm, t->solution.plain_amplitude_A, cli_tune_largest_recorded_A(t),
+            cli_tune_constant_option(t));
+}
+
+/* What the table needs of the drive, and does not do. */
+static void append_of_table(cli_tuning *t)
+{
+    append_of_logs(t);
+    append_of_zeros(t);
+    if (t->is_solved && *t->solution.corrections)
+        cli_tune_caveat(
+            t, "The sensors of the drive, where they are those of the logs, have to be corrected before: %s",
+            t->solution.corrections);
+    if (t->is_solved && *t->solution.corrections) append_of_gain(t);
+    if (t->is_solved) append_of_early(t);
+    append_of_zero(t);
+    append_of_doubt(t);
+    append_of_miss(t);
+    if (t->is_solved && t->size != CLI_TUNE_EXCESS) append_of_excess(t);
+    if (cli_tune_misses_torque(t))
+        cli_tune_caveat(t, "The table makes %.4g N·m on average, and not the %.4g N·m that were wanted",
+                        cli_tune_made_Nm(t), t->mean_Nm);
+    append_of_ratings(t);
+}
+
+void cli_tune_table_caveats(cli_tuning *t)
+{
+    append_of_loop(t);
+    append_of_sheet(t);
+    append_of_table(t);
+}
