@@ -78,7 +78,7 @@ tuned 1 counts.csv --column theta_m_deg=encoder; tells 'in counts of an encoder'
 tuned 3 turns.csv --column theta_m_turn=angel --column iq=current
 tells 'found no column `angel` in turns.csv; did you mean `angle`\? It has `t`, `angle`, `vel`, `current`'
 log time_s,theta_m_turn,speed_rpm,m0.current_control.Iq_meas 1 60 1 >name.csv
-tuned 1 name.csv; tells "no current was read: if the column .m0.current_control.Iq_meas. is i_q, add --column 'iq_A=m0.current_control.Iq_meas'"; typed name.csv
+tuned 1 name.csv; tells "No current was read: if the column .m0.current_control.Iq_meas. is i_q, add --column 'iq_A=m0.current_control.Iq_meas'"; typed name.csv
 log time_s,theta_e_turn,speed_rpm,iq_A 7 60 1 >poles.csv
 rm -rf o; run 1 tune poles.csv --pole-pairs 14 --kv 90 --torque 0.05 -o o
 tr '\n' ' ' <stdout | tr -s ' ' >said; tells '0.5 times as far: .*--pole-pairs 7: 7 pole pairs would fit, and not 14, which is the number of poles'
@@ -124,7 +124,7 @@ run 2 tune rad.csv -p 7 -o p; says 'those that begin so are `--pole-pairs`, `--p
 # ---- values that contradict the log
 
 rm -rf o; run 0 tune rad.csv --pole-pairs 7 --volt-per-krpm 90 --torque 0.02 -o o
-tr '\n' ' ' <stdout | tr -s ' ' >said; tells 'by this Kv 0.02 N..m take 0.019 A, and the shaft without a load took up to 0.0[0-9]* A: is --volt-per-krpm the right number'
+tr '\n' ' ' <stdout | tr -s ' ' >said; tells 'By this Kv 0.02 N..m take 0.019 A, and the shaft without a load took up to 0.0[0-9]* A: is --volt-per-krpm the right number'
 
 # ---- the same folder again
 
