@@ -841,7 +841,10 @@ hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *decl
     const task all = {machine, declared, runs, options, NULL, NULL, NULL, 0.0};
     hci_status status = diagnose_runs(&all, diagnosis, note);
     if (!status) status = origin_fill(&all, diagnosis, note);
-    if (status) return status;
+    if (status) {
+        hci_diagnosis_release(diagnosis);
+        return status;
+    }
     return diagnosis->verdict >= HCI_DIAGNOSIS_AMBIGUOUS || diagnosis->search != HCI_WORK_COMPLETE ||
                    diagnosis->odd.file
                ? HCI_NOT_REACHED
