@@ -313,6 +313,21 @@ static size_t fill_parts(const cli_tuning *t, const hci_run *r, double sum_Nm[PA
     return filled;
 }
 
+/* Amplitude of one order of the turn. */
+static double amplitude_of(const double part_Nm[PARTS_OF_TURN], int order)
+{
+    const double step = 2.0 * HCI_PI * order / PARTS_OF_TURN, by_cosine = cos(step), by_sine = sin(step);
+    double c = 1.0, s = 0.0, sine = 0.0, cosine = 0.0;
+    for (size_t k = 0; k < PARTS_OF_TURN; ++k) {
+        const double turned = c * by_cosine - s * by_sine;
+        sine += part_Nm[k] * s;
+        cosine += part_Nm[k] * c;
+        s = s * by_cosine + c * by_sine;
+        c = turned;
+    }
+    return 2.0 / PARTS_OF_TURN * hypot(sine, cosine);
+}
+
 static void ripple_of(const cli_tuning *t, const hci_run *r, turn_ripple *x)
 {
     double part_Nm[PARTS_OF_TURN] = {0.0}, square = 0.0;
@@ -322,12 +337,7 @@ static void ripple_of(const cli_tuning *t, const hci_run *r, turn_ripple *x)
     const size_t filled = fill_parts(t, r, part_Nm);
     x->reach = (int)fmin(MOST_ORDER, (double)(filled / SAMPLES_OF_ORDER));
     for (int order = 1; order <= x->reach; ++order) {
-        double sine = 0.0, cosine = 0.0;
-        for (size_t k = 0; k < PARTS_OF_TURN; ++k) {
-            sine += part_Nm[k] * sin(2.0 * HCI_PI * order * (double)k / PARTS_OF_TURN);
-            cosine += part_Nm[k] * cos(2.0 * HCI_PI * order * (double)k / PARTS_OF_TURN);
-        }
-        x->amplitude_Nm[order] = 2.0 / PARTS_OF_TURN * hypot(sine, cosine);
+        x->amplitude_Nm[order] = amplitude_of(part_Nm, order);
         square += 0.5 * pow(x->amplitude_Nm[order], 2.0);
         if (order >= LEAST_ORDER && x->amplitude_Nm[order] > x->amplitude_Nm[x->order]) x->order = order;
     }
@@ -342,7 +352,7 @@ static bool lacks(const turn_ripple *x, const turn_ripple *of)
 
 bool cli_tune_two_motors(const cli_tuning *t, cli_tune_two_ripples *two)
 {
-    static turn_ripple a, b;
+    turn_ripple a, b;
     for (size_t k = 0; k < t->runs.count; ++k) {
         ripple_of(t, &t->runs.run[k], &a);
         for (size_t j = k + 1; a.order > 0 && j < t->runs.count; ++j) {
