@@ -54,6 +54,7 @@ typedef struct {
     double torque_Nm;       /* T_x */
     double by_current[3];   /* ∂T/∂i_s, N·m/A */
     double by_change[3];    /* by change_A_per_s, N·m·s/A; of readings only */
+    double by_curvature[3]; /* by curvature_A_per_s2, N·m·s²/A; of readings only */
     double by_angle;        /* ∂T/∂θ_m at constant phase currents, N·m/rad */
     double inductance_H[3]; /* L_x = ∂²W'/∂i² in the orthonormal αβ plane: αα, αβ, ββ */
 } hci_effect_torque;

@@ -111,9 +111,13 @@ static void undo_adjoint(const hci_effect *effect, int pole_pairs, const hci_sam
     const rotation back = rotation_by(-pole_pairs * before->speed_rad_per_s * lead_s);
     turn(by->by_current, back);
     turn(by->by_change, back);
+    turn(by->by_curvature, back);
     const swing on = swing_of(before->swing_rad_per_s, lead_s);
-    for (int k = 0; k < 3; ++k)
-        by->by_change[k] = on.kept * by->by_change[k] + on.by_rate * by->by_current[k];
+    for (int k = 0; k < 3; ++k) {
+        const double first = by->by_change[k], second = by->by_curvature[k];
+        by->by_change[k] = on.kept * first + on.by_rate * by->by_current[k] - on.lost * second;
+        by->by_curvature[k] = on.kept * second + on.by_rate * first + on.by_curvature * by->by_current[k];
+    }
 }
 
 static void delay_add(const hci_effect *effect, size_t parameter, hci_effect_channel *channel)

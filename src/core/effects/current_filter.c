@@ -6,9 +6,8 @@
  *
  * and c' as it is read, since the next derivative is not known. Like a delay of τ as long as pωτ is small,
  * and smaller by 1/sqrt(1 + (pωτ)²) as well. */
+#include "core/effects/phase_rates.h"
 #include "core/effects/type.h"
-
-#include "hci/machine/frames.h"
 
 enum { TIME_CONSTANT };
 
@@ -17,19 +16,11 @@ static const hci_effect_parameter PARAMETER[] = {
               HCI_PARAMETER_WITH_SPEED),
 };
 
-/* y = J x */
-static void quarter(const double x[3], double y[3])
-{
-    const hci_alpha_beta a = hci_clarke(x);
-    const hci_alpha_beta b = {-a.beta, a.alpha, 0.0};
-    hci_clarke_inverse(b, y);
-}
-
 /* x = r + τ (rate + w J r), in place of r. rate: NULL for 0. */
 static void lead(double r[3], const double *rate, double tau_s, double w)
 {
     double turned[3];
-    quarter(r, turned);
+    hci_phase_quarter(r, turned);
     for (int s = 0; s < 3; ++s)
         r[s] += tau_s * ((rate ? rate[s] : 0.0) + w * turned[s]);
 }
@@ -41,7 +32,7 @@ static void lag(double x[3], const double *rate, double tau_s, double w)
     double turned[3], zero;
     for (int s = 0; s < 3; ++s)
         x[s] -= tau_s * (rate ? rate[s] : 0.0);
-    quarter(x, turned);
+    hci_phase_quarter(x, turned);
     zero = (x[0] + x[1] + x[2]) / 3.0;
     for (int s = 0; s < 3; ++s)
         x[s] = zero + (x[s] - zero - tau_s * w * turned[s]) / (1.0 + tau_s * w * tau_s * w);
@@ -65,7 +56,7 @@ static void undo(const hci_effect *effect, int pole_pairs, hci_sample *x)
 static double along(const double x[3], const double rate[3], const double r[3], double w)
 {
     double turned[3], sum = 0.0;
-    quarter(r, turned);
+    hci_phase_quarter(r, turned);
     for (int s = 0; s < 3; ++s)
         sum += x[s] * (rate[s] + w * turned[s]);
     return sum;
@@ -82,6 +73,8 @@ static void undo_adjoint(const hci_effect *effect, int pole_pairs, const hci_sam
                           along(by->by_change, before->curvature_A_per_s2, before->change_A_per_s, w);
     for (size_t k = 0; k < effect->count; ++k)
         by_value[k] = by_tau;
+    for (int s = 0; s < 3; ++s)
+        by->by_curvature[s] += tau_s * by->by_change[s];
     lead(by->by_change, by->by_current, tau_s, -w);
     lead(by->by_current, NULL, tau_s, -w);
 }

@@ -1,4 +1,5 @@
 /* Current sensors whose zero is off. */
+#include "core/effects/phase_rates.h"
 #include "core/effects/type.h"
 
 #include <math.h>
@@ -9,30 +10,37 @@ static const hci_effect_parameter PARAMETER[] = {
     HCI_PLAIN("c", "A", "read too much in phase c", 0.0, -DBL_MAX, 0),
 };
 
+/* What stands still in the phases turns against the rotor. */
+static void add(const hci_effect *effect, double sign, int pole_pairs, hci_sample *x)
+{
+    const hci_phase_rates rates = hci_phase_rates_of(pole_pairs, x);
+    for (size_t s = 0; s < 3; ++s)
+        x->i_abc[s] += sign * hci_effect_value(effect, s);
+    hci_effect_compute_phase(x->computed_phase, x->i_abc);
+    hci_phase_rates_set(pole_pairs, &rates, x);
+}
+
 static void sense(const hci_effect *effect, int pole_pairs, hci_sample *x)
 {
-    (void)pole_pairs;
-    for (size_t s = 0; s < 3; ++s)
-        x->i_abc[s] += hci_effect_value(effect, s);
-    hci_effect_compute_phase(x->computed_phase, x->i_abc);
+    add(effect, 1.0, pole_pairs, x);
 }
 
 static void undo(const hci_effect *effect, int pole_pairs, hci_sample *x)
 {
-    (void)pole_pairs;
-    for (size_t s = 0; s < 3; ++s)
-        x->i_abc[s] -= hci_effect_value(effect, s);
-    hci_effect_compute_phase(x->computed_phase, x->i_abc);
+    add(effect, -1.0, pole_pairs, x);
 }
 
 static void undo_adjoint(const hci_effect *effect, int pole_pairs, const hci_sample *before,
                          const hci_sample *after, hci_effect_torque *by, double *by_value)
 {
     (void)after;
-    (void)pole_pairs;
+    hci_phase_rates_adjoint_set(pole_pairs, before, by);
     hci_effect_compute_phase_adjoint(before->computed_phase, by->by_current);
+    hci_effect_compute_phase_adjoint(before->computed_phase, by->by_change);
+    hci_effect_compute_phase_adjoint(before->computed_phase, by->by_curvature);
     for (size_t k = 0; k < effect->count; ++k)
         by_value[k] = -by->by_current[effect->term[k].parameter];
+    hci_phase_rates_adjoint_of(pole_pairs, before, by);
 }
 
 static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *sensors,

@@ -9,7 +9,7 @@
 #include "hci/host/machine/uncertainty.h"
 #include "host/base/memory.h"
 #include "host/diagnose/fit/dataset.h"
-#include "host/diagnose/fit/predicted_reading.h"
+#include "host/diagnose/reading/predicted_reading.h"
 #include "host/diagnose/run_errors.h"
 
 #define EXCEEDED 0.05 /* share of the machines beyond the bound, and of changes that are called one */

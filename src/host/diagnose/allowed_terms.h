@@ -5,7 +5,7 @@
 #include <stdbool.h>
 
 #include "host/diagnose/candidates/candidates.h"
-#include "host/diagnose/fit/regression.h"
+#include "host/diagnose/reading/regression.h"
 
 /* Start with {0}. */
 typedef struct {

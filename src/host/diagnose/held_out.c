@@ -6,7 +6,7 @@
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/fit/fit.h"
 #include "host/diagnose/fit/model.h"
-#include "host/diagnose/fit/predicted_reading.h"
+#include "host/diagnose/reading/predicted_reading.h"
 #include "host/diagnose/search/search.h"
 
 #define BEYOND        1.05 /* of the largest current and speed fitted: beyond it a run is no test */

@@ -8,7 +8,7 @@
 #include "host/base/memory.h"
 #include "host/base/words.h"
 #include "host/diagnose/fit/fit.h"
-#include "host/diagnose/fit/predicted_reading.h"
+#include "host/diagnose/reading/predicted_reading.h"
 #include "host/diagnose/next/open_points.h"
 #include "host/diagnose/next/tell_apart.h"
 #include "host/diagnose/next/unknown_points.h"

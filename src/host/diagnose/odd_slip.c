@@ -7,7 +7,7 @@
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
 #include "host/diagnose/fit/dataset.h"
-#include "host/diagnose/fit/predicted_reading.h"
+#include "host/diagnose/reading/predicted_reading.h"
 #include "host/diagnose/run_errors.h"
 
 #define AT_NOISE 1.5 /* times its noise: an error that is none */

@@ -6,7 +6,7 @@
 #define HCI_SRC_HOST_DIAGNOSE_RESIDUAL_SPECTRUM_H
 
 #include "hci/host/diagnose/diagnose.h"
-#include "host/diagnose/fit/regression.h"
+#include "host/diagnose/reading/regression.h"
 
 /* What is transformed. */
 typedef struct {

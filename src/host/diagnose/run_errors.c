@@ -7,7 +7,7 @@
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
 #include "host/diagnose/fit/noise_estimate.h"
-#include "host/diagnose/fit/predicted_reading.h"
+#include "host/diagnose/reading/predicted_reading.h"
 #include "host/diagnose/residual_spectrum.h"
 #include "host/numeric/angle_bins.h"
 

@@ -9,7 +9,7 @@
 
 #include "hci/host/machine/uncertainty.h"
 #include "host/diagnose/candidates/candidates.h"
-#include "host/diagnose/fit/regression.h"
+#include "host/diagnose/reading/regression.h"
 
 enum { HCI_MOST_ALTERNATIVES = 8 };
 

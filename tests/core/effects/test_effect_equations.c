@@ -871,6 +871,69 @@ static void test_delay_of_many_periods(void)
     check_delay_of_a_swing(0.1, 0.0);
 }
 
+/* Currents that stand in the rotor frame, read late by sensors with gains and zeros, at a time: phase
+ * currents, and those in the rotor frame of that time. */
+static void read_late(double time_s, double delay_s, const double gain[3], const double zero_A[3],
+                      double i_abc[3], double rotor_dq0[3])
+{
+    const double w = P * OMEGA, now = P * START + w * time_s;
+    rotor_dq0[0] = rotor_dq0[1] = rotor_dq0[2] = 0.0;
+    for (int s = 0; s < 3; ++s) {
+        const double shift = 2.0 * REF_PI * s / 3.0, then = now - w * delay_s - shift;
+        i_abc[s] = (1.0 + gain[s]) * (0.7 * cos(then) - 3.0 * sin(then)) + zero_A[s];
+        rotor_dq0[0] += 2.0 / 3.0 * i_abc[s] * cos(now - shift);
+        rotor_dq0[1] -= 2.0 / 3.0 * i_abc[s] * sin(now - shift);
+        rotor_dq0[2] += i_abc[s] / 3.0;
+    }
+}
+
+/* What a reading at START changes by in the rotor frame, by differences along time. */
+static hci_sample late_reading(double delay_s, const double gain[3], const double zero_A[3])
+{
+    const double step_s = 1e-4 / (P * OMEGA);
+    double ignored[3], before[3], at[3], after[3];
+    hci_sample x = {.theta_m_rad = START, .speed_rad_per_s = OMEGA};
+    read_late(-step_s, delay_s, gain, zero_A, ignored, before);
+    read_late(step_s, delay_s, gain, zero_A, ignored, after);
+    read_late(0.0, delay_s, gain, zero_A, x.i_abc, at);
+    for (int s = 0; s < 3; ++s) {
+        const double angle = P * START - 2.0 * REF_PI * s / 3.0;
+        const double by[3] = {cos(angle), -sin(angle), 1.0};
+        for (int k = 0; k < 3; ++k) {
+            x.change_A_per_s[s] += by[k] * (after[k] - before[k]) / (2.0 * step_s);
+            x.curvature_A_per_s2[s] += by[k] * (after[k] - 2.0 * at[k] + before[k]) / (step_s * step_s);
+        }
+    }
+    return x;
+}
+
+/* A gain or a zero of one phase turns against the rotor: it is taken out before the delay is, with its rates.
+ */
+static void test_delay_beside_gains_and_zeros(void)
+{
+    static const double GAIN[3] = {0.03, -0.05, 0.01}, ZERO_A[3] = {0.2, 0.05, -0.1};
+    const double delay_s = 0.3 / (P * OMEGA), rate = P * OMEGA;
+    el_list l = {0};
+    el_add(&l, "channel_delay", "current", 0.0, delay_s);
+    el_add(&l, "current_gain", "a", 0.0, GAIN[0]);
+    el_add(&l, "current_gain", "b", 0.0, GAIN[1]);
+    el_add(&l, "current_gain", "c", 0.0, GAIN[2]);
+    el_add(&l, "current_offset", "a", 0.0, ZERO_A[0]);
+    el_add(&l, "current_offset", "b", 0.0, ZERO_A[1]);
+    el_add(&l, "current_offset", "c", 0.0, ZERO_A[2]);
+    const hci_sample reading = late_reading(delay_s, GAIN, ZERO_A);
+    const hci_sample truth = hci_effects_undo(&l.list, P, &reading);
+    for (int s = 0; s < 3; ++s) {
+        const double angle = P * START - 2.0 * REF_PI * s / 3.0;
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.7 * cos(angle) - 3.0 * sin(angle), truth.i_abc[s]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6 * rate, 0.0, truth.change_A_per_s[s]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-5 * rate * rate, 0.0, truth.curvature_A_per_s2[s]);
+    }
+    const hci_sample back = hci_effects_sense(&l.list, P, &truth);
+    for (int s = 0; s < 3; ++s)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, reading.i_abc[s], back.i_abc[s]);
+}
+
 /* What is read is predicted from what is read, with every effect there is. */
 static void test_prediction_of_a_reading(void)
 {
@@ -1178,6 +1241,7 @@ int main(void)
     RUN_TEST(test_currents_and_back);
     RUN_TEST(test_delay_of_a_harmonic);
     RUN_TEST(test_delay_of_many_periods);
+    RUN_TEST(test_delay_beside_gains_and_zeros);
     RUN_TEST(test_prediction_of_a_reading);
     RUN_TEST(test_a_gain_is_of_all_but_the_zero);
     RUN_TEST(test_torque_sensor_frequency_response);

@@ -8,7 +8,7 @@
 #define HCI_SRC_HOST_DIAGNOSE_FIT_CANCELLING_H
 
 #include "host/diagnose/candidates/candidates.h"
-#include "host/diagnose/fit/regression.h"
+#include "host/diagnose/reading/regression.h"
 
 /* The type in the model whose linear terms make, in the runs in use and in units of their noise, less than a
  * sixteenth of the sum of the squares of what they make one by one; NULL: none. A series in the currents,

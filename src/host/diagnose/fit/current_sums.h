@@ -3,7 +3,7 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_FIT_CURRENT_SUMS_H
 #define HCI_SRC_HOST_DIAGNOSE_FIT_CURRENT_SUMS_H
 
-#include "host/diagnose/fit/regression.h"
+#include "host/diagnose/reading/regression.h"
 
 /* How many times the currents sensors read, on the average of the phases; 1 without such an effect. */
 double hci_current_sum_scale(const hci_effects *effects);

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "host/base/memory.h"
-#include "host/diagnose/fit/predicted_reading.h"
+#include "host/diagnose/reading/predicted_reading.h"
 #include "host/diagnose/prepare/index_alignment.h"
 #include "host/machine/torque_constant.h"
 

@@ -8,7 +8,7 @@
 #include "hci/host/machine/machine.h"
 #include "host/diagnose/fit/known_columns.h"
 #include "host/diagnose/fit/known_equations.h"
-#include "host/diagnose/fit/regression.h"
+#include "host/diagnose/reading/regression.h"
 
 /* Start with {0}; it must not be moved. */
 typedef struct {

@@ -10,7 +10,7 @@
 #define HCI_SRC_HOST_DIAGNOSE_FIT_FIT_H
 
 #include "host/diagnose/candidates/candidates.h"
-#include "host/diagnose/fit/regression.h"
+#include "host/diagnose/reading/regression.h"
 
 typedef struct {
     double square;     /* χ² at the solution */

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "host/base/memory.h"
-#include "host/diagnose/fit/shorter_list.h"
+#include "host/diagnose/reading/shorter_list.h"
 
 #define SPARE 1.5 /* times the columns at first: candidates change from round to round */
 

@@ -8,8 +8,8 @@
 #define HCI_SRC_HOST_DIAGNOSE_FIT_KNOWN_COLUMNS_H
 
 #include "host/diagnose/fit/model.h"
-#include "host/diagnose/fit/predicted_reading.h"
-#include "host/diagnose/fit/regression.h"
+#include "host/diagnose/reading/predicted_reading.h"
+#include "host/diagnose/reading/regression.h"
 
 enum { HCI_KNOWN_TABLES = 2, HCI_KNOWN_NUMBERS = 1 << 24 /* of a table, at most */ };
 

@@ -11,7 +11,7 @@
 #define HCI_SRC_HOST_DIAGNOSE_FIT_KNOWN_EQUATIONS_H
 
 #include "host/diagnose/fit/model.h"
-#include "host/diagnose/fit/regression.h"
+#include "host/diagnose/reading/regression.h"
 #include "host/numeric/normal_equations.h"
 
 enum { HCI_KNOWN_EQUATIONS = 64 }; /* that are kept, the last ones used */

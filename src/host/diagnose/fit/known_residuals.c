@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "host/base/memory.h"
-#include "host/diagnose/fit/predicted_reading.h"
+#include "host/diagnose/reading/predicted_reading.h"
 
 static void residual_release(hci_known_residual *x)
 {

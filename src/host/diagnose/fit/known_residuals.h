@@ -4,7 +4,7 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_FIT_KNOWN_RESIDUALS_H
 #define HCI_SRC_HOST_DIAGNOSE_FIT_KNOWN_RESIDUALS_H
 
-#include "host/diagnose/fit/regression.h"
+#include "host/diagnose/reading/regression.h"
 
 enum { HCI_KNOWN_RESIDUALS = 8 };
 

@@ -6,7 +6,7 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_FIT_LATE_TORQUE_H
 #define HCI_SRC_HOST_DIAGNOSE_FIT_LATE_TORQUE_H
 
-#include "host/diagnose/fit/regression.h"
+#include "host/diagnose/reading/regression.h"
 
 typedef struct {
     double delay_s; /* negative: the other channels are late */

@@ -7,7 +7,7 @@
 #include "host/diagnose/fit/current_sums.h"
 #include "host/diagnose/fit/known_columns.h"
 #include "host/diagnose/fit/known_equations.h"
-#include "host/diagnose/fit/predicted_reading.h"
+#include "host/diagnose/reading/predicted_reading.h"
 
 #define SCALES   1e-4  /* torque by a value at the reference current that is not rounding */
 #define ROUNDING 1e-12 /* square of a column beside the largest of its effect that is rounding */

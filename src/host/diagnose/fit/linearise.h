@@ -9,7 +9,7 @@
 
 #include "host/diagnose/candidates/candidates.h"
 #include "host/diagnose/fit/model.h"
-#include "host/diagnose/fit/regression.h"
+#include "host/diagnose/reading/regression.h"
 #include "host/numeric/normal_equations.h"
 
 /* Normal equations with a column for each term of the candidates that are in (or of all of them), at their

@@ -6,7 +6,7 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_FIT_NOISE_ESTIMATE_H
 #define HCI_SRC_HOST_DIAGNOSE_FIT_NOISE_ESTIMATE_H
 
-#include "host/diagnose/fit/regression.h"
+#include "host/diagnose/reading/regression.h"
 
 /* Sets the noise of each segment in use from the residual of a model with so many parameters: where a segment
  * is long enough from its spectrum between the orders, otherwise from what all short ones leave. floor_Nm:

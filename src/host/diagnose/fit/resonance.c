@@ -5,7 +5,7 @@
 
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
-#include "host/diagnose/fit/predicted_reading.h"
+#include "host/diagnose/reading/predicted_reading.h"
 
 enum { FREQUENCIES = 48, LAGS = 20 };
 

@@ -5,7 +5,7 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_FIT_RESONANCE_H
 #define HCI_SRC_HOST_DIAGNOSE_FIT_RESONANCE_H
 
-#include "host/diagnose/fit/regression.h"
+#include "host/diagnose/reading/regression.h"
 
 typedef struct {
     double natural_frequency_Hz, damping;

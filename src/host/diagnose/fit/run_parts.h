@@ -2,7 +2,7 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_FIT_RUN_PARTS_H
 #define HCI_SRC_HOST_DIAGNOSE_FIT_RUN_PARTS_H
 
-#include "host/diagnose/fit/regression.h"
+#include "host/diagnose/reading/regression.h"
 
 /* Fewer runs than this are cut into parts, and those of which one without a torque sensor is the only one of
  * its kind. */

@@ -9,7 +9,7 @@
 #define HCI_SRC_HOST_DIAGNOSE_FIT_STANDARD_ERRORS_H
 
 #include "host/diagnose/candidates/candidates.h"
-#include "host/diagnose/fit/regression.h"
+#include "host/diagnose/reading/regression.h"
 
 /* Raises the standard errors of the candidates that are in where the residual is more correlated than the
  * model of the noise has it: from the scatter of sums over blocks of the recordings. Nothing happens with few

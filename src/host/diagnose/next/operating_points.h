@@ -6,7 +6,7 @@
 #define HCI_SRC_HOST_DIAGNOSE_NEXT_OPERATING_POINTS_H
 
 #include "hci/host/machine/machine.h"
-#include "host/diagnose/fit/regression.h"
+#include "host/diagnose/reading/regression.h"
 
 /* What may be played, and how it would be recorded. */
 typedef struct {

@@ -5,7 +5,7 @@
 
 #include "hci/math/dense.h"
 #include "host/base/memory.h"
-#include "host/diagnose/fit/predicted_reading.h"
+#include "host/diagnose/reading/predicted_reading.h"
 #include "host/recording/rotor_frame.h"
 
 enum { SAMPLES_PER_PERIOD = 96, MOST_SAMPLES = 1024, HOLDING_STEPS = 4 };

@@ -1,6 +1,7 @@
 #include "host/diagnose/prepare/repeats.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "hci/math/harmonic.h"
@@ -14,7 +15,9 @@
 #define ALIKE      0.25 /* correlation of neighbours */
 #define SLOW_POWER 4.0  /* times the noise of higher orders, of noise that is slow */
 #define FOLLOWS    4.0  /* standard errors by which the torque goes along with a current */
-#define NONE       1e-4 /* of the torque or the current of a run, rms, that is next to nothing or rounding */
+#define SHARED     1.94 /* times the variance of a product of departures, of which neighbours share their noise \
+                         */
+#define NONE 1e-4       /* of the torque or the current of a run, rms, that is next to nothing or rounding */
 
 enum { CHANNELS = 3 };
 
@@ -223,34 +226,61 @@ bool hci_repeats_find(const hci_repeats_question *question, bool *repeats)
     return made;
 }
 
-/* What is left of the torque is in value and of i_q in re. */
-static bool is_followed(const departures *x, double Nm_per_A)
+/* ---- the torque along a current that does not repeat ---- */
+
+typedef struct {
+    double theta_rad, torque_Nm, iq_A; /* the angle within the turn */
+} sample_of_turn;
+
+static int by_angle(const void *a, const void *b)
+{
+    const double x = ((const sample_of_turn *)a)->theta_rad, y = ((const sample_of_turn *)b)->theta_rad;
+    return (x > y) - (x < y);
+}
+
+/* The samples in the order of their angles. */
+static void samples_sort(const hci_repeats_question *q, sample_of_turn *sample)
+{
+    const double turn_rad = hci_turn_rad(q->run, q->pole_pairs);
+    for (size_t k = 0; k < q->count; ++k) {
+        const double theta = q->run->theta_m_rad[q->first + k];
+        sample[k].theta_rad = theta - turn_rad * floor(theta / turn_rad);
+        sample[k].torque_Nm = channel_at(q, 0, q->first + k);
+        sample[k].iq_A = channel_at(q, 2, q->first + k);
+    }
+    qsort(sample, q->count, sizeof *sample, by_angle);
+}
+
+/* How far a sample lies from the line through the two beside it: what repeats with the angle bends little
+ * from one to the other, since all turns are among them. */
+static sample_of_turn departure_of(const sample_of_turn *x)
+{
+    const double step = x[1].theta_rad - x[-1].theta_rad;
+    const double share = step > 0.0 ? (x->theta_rad - x[-1].theta_rad) / step : 0.5, rest = 1.0 - share;
+    return (sample_of_turn){x->theta_rad, x->torque_Nm - rest * x[-1].torque_Nm - share * x[1].torque_Nm,
+                            x->iq_A - rest * x[-1].iq_A - share * x[1].iq_A};
+}
+
+static bool is_followed(const sample_of_turn *sample, size_t count, double Nm_per_A)
 {
     double product = 0.0, current = 0.0, torque = 0.0;
-    for (size_t k = 0; k < x->q->count; ++k) {
-        product += x->re[k] * x->value[k];
-        current += x->re[k] * x->re[k];
-        torque += x->value[k] * x->value[k];
+    for (size_t k = 1; k + 1 < count; ++k) {
+        const sample_of_turn x = departure_of(sample + k);
+        product += x.iq_A * x.torque_Nm;
+        current += x.iq_A * x.iq_A;
+        torque += x.torque_Nm * x.torque_Nm;
     }
-    const double error = sqrt(torque * current / (double)x->q->count);
+    const double error = sqrt(SHARED * torque * current / (double)count);
     return product > 0.5 * Nm_per_A * current && product > FOLLOWS * error;
 }
 
 bool hci_repeats_follows(const hci_repeats_question *question, double Nm_per_A, bool *follows)
 {
-    departures x;
-    const bool made = departures_make(question, &x);
+    sample_of_turn *sample = hci_memory_new(question->count, sizeof *sample);
     *follows = false;
-    if (made) {
-        bins_fill(&x);
-        values_fill(&x, 2);
-        means_leave(&x);
-        memcpy(x.re, x.value, question->count * sizeof *x.re);
-        values_fill(&x, 0);
-        means_leave(&x);
-        *follows = Nm_per_A > 0.0 && is_followed(&x, Nm_per_A);
-    }
-    hci_memory_free(x.theta_rad);
-    hci_memory_free(x.bin);
-    return made;
+    if (!sample) return false;
+    samples_sort(question, sample);
+    *follows = Nm_per_A > 0.0 && is_followed(sample, question->count, Nm_per_A);
+    hci_memory_free(sample);
+    return true;
 }

@@ -7,7 +7,7 @@
 #define HCI_SRC_HOST_DIAGNOSE_SEARCH_BRAKES_H
 
 #include "host/diagnose/candidates/candidates.h"
-#include "host/diagnose/fit/regression.h"
+#include "host/diagnose/reading/regression.h"
 
 /* The type in the model whose law is no brake's, declared values included; NULL: none. HCI_ERROR_MEMORY. */
 hci_status hci_brakes_find_driving(const hci_regression *regression, const hci_candidates *candidates,

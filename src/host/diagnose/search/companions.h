@@ -2,7 +2,7 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_SEARCH_COMPANIONS_H
 #define HCI_SRC_HOST_DIAGNOSE_SEARCH_COMPANIONS_H
 
-#include "host/diagnose/fit/regression.h"
+#include "host/diagnose/reading/regression.h"
 #include "host/diagnose/search/attribution.h"
 
 /* Whether every torque in use is an inertia times an acceleration. */

@@ -3,7 +3,7 @@
 #include "host/diagnose/fit/current_sums.h"
 #include "host/diagnose/fit/model.h"
 #include "host/diagnose/fit/noise_estimate.h"
-#include "host/diagnose/fit/within_slope.h"
+#include "host/diagnose/reading/within_slope.h"
 
 #include <math.h>
 #include <string.h>

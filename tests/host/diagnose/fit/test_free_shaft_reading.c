@@ -1,8 +1,8 @@
 /* A free shaft whose torque swings within the window of its acceleration: the model is averaged over the same
  * window, and what it leaves is next to nothing. */
 #define _XOPEN_SOURCE 700
-#include "host/diagnose/fit/predicted_reading.h"
-#include "host/diagnose/fit/within_slope.h"
+#include "host/diagnose/reading/predicted_reading.h"
+#include "host/diagnose/reading/within_slope.h"
 #include "host/numeric/derivative.h"
 
 #include "support/searching.h"

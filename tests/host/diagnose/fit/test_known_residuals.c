@@ -4,7 +4,7 @@
 #include "host/diagnose/fit/known_residuals.h"
 
 #include "host/diagnose/fit/model.h"
-#include "host/diagnose/fit/predicted_reading.h"
+#include "host/diagnose/reading/predicted_reading.h"
 #include "support/searching.h"
 
 enum { N = 600 };

@@ -4,7 +4,7 @@
 
 #include <complex.h>
 
-#include "host/diagnose/fit/predicted_reading.h"
+#include "host/diagnose/reading/predicted_reading.h"
 #include "support/searching.h"
 
 #define J ((double complex)I)

@@ -81,6 +81,22 @@ static void test_a_torque_that_follows(void)
     TEST_ASSERT_FALSE(follows(1e-3));
 }
 
+/* Waves of torque and current with two and a half samples in a period, which all fourteen turns have alike: a
+ * line from sample to sample of a turn misses both. */
+static void test_waves_of_few_samples_are_not_followed(void)
+{
+    rec_release(&run);
+    run = rec_make(4970);
+    for (size_t k = 0; k < run.count; ++k) {
+        const double theta = 2.0 * REF_PI * (double)k / 354.4, wave = sin(144.0 * theta);
+        run.time_s[k] = (double)k / RATE_HZ;
+        run.theta_m_rad[k] = theta;
+        rec_phases(0.0, 5.0 + 0.05 * wave + NOISE_A * ref_normal(&seed), P * theta, run.i_A + 3 * k);
+        run.torque_Nm[k] = 2.0 + 0.5 * wave + NOISE_NM * ref_normal(&seed);
+    }
+    TEST_ASSERT_FALSE(follows(0.4));
+}
+
 /* Twelve turns at other angles each, and three at the same ones. */
 static void test_what_repeats(void)
 {
@@ -173,6 +189,7 @@ int main(void)
     RUN_TEST(test_slow_noise);
     RUN_TEST(test_odd_runs);
     RUN_TEST(test_a_torque_that_follows);
+    RUN_TEST(test_waves_of_few_samples_are_not_followed);
     RUN_TEST(test_memory_is_out);
     return UNITY_END();
 }

@@ -1,4 +1,4 @@
-#include "host/diagnose/fit/regression.h"
+#include "host/diagnose/reading/regression.h"
 
 #include "host/base/memory.h"
 

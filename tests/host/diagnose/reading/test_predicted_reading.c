@@ -1,6 +1,6 @@
 /* Derivatives of a predicted reading by the model's values: those of its torque, sample by sample, up to the
- * first and the last, at samples and between them. */
-#include "host/diagnose/fit/predicted_reading.h"
+ * first and the last, at samples and between them; and a lag where few samples are in a period. */
+#include "host/diagnose/reading/predicted_reading.h"
 
 #include "support/searching.h"
 
@@ -150,6 +150,70 @@ static void test_a_free_shaft_at_a_steady_speed(void)
     hci_predicted_reading_release(&reading);
 }
 
+/* ---- a lag at two or three samples in a period ---- */
+
+enum { LONG = 4200 };
+
+static const double FAST_RAD_PER_S = 134.0, LAG_S = 2e-4, WAVE_NM = 0.1;
+
+/* samples_of_turn of them; faster at the end by so much of the speed. */
+static void record_fast(size_t n, double samples_of_turn, double rise)
+{
+    hci_run *r = add_run(n);
+    for (size_t k = 0; k < n; ++k) {
+        const double turns = (double)k / samples_of_turn, share = (double)k / (double)n;
+        r->theta_m_rad[k] = 2.0 * REF_PI * turns * (1.0 + 0.5 * rise * share);
+        r->time_s[k] = 2.0 * REF_PI * turns / FAST_RAD_PER_S;
+        r->speed_rad_per_s[k] = FAST_RAD_PER_S * (1.0 + rise * share);
+        rec_phases(0.0, 0.0, P * r->theta_m_rad[k], r->i_A + 3 * k);
+        r->torque_Nm[k] = 0.01 * sin(3.0 * r->theta_m_rad[k]);
+    }
+    search_start();
+    dataset.samples.segment[0].smooth = true;
+}
+
+/* A wave of order 6 of three pole pairs through a lag is smaller by 1/sqrt(1 + (wτ)²) and later by atan wτ;
+ * where a sample is the mean over angles, smaller by half their variance times the square of its periods in a
+ * turn again. From one sample on, before which the sensor settles. */
+static void check_lag(size_t first)
+{
+    const hci_candidate wave = candidate_of("cogging", "sine", NULL, 6.0),
+                        lag = candidate_of("torque_sensor", "time_constant", NULL, 0.0);
+    hci_effect_term term[2] = {wave.term[0], lag.term[0]};
+    term[0].value = WAVE_NM;
+    term[1].value = LAG_S;
+    const hci_effect effect[2] = {{wave.type, term, 1}, {lag.type, term + 1, 1}};
+    const hci_effects effects = {effect, 2};
+    const hci_segment *segment = dataset.samples.segment;
+    fill(&effects, true);
+    for (size_t k = first; k + 1 < segment->count; ++k) {
+        const hci_binned_sample *x = &dataset.samples.sample[segment->first + k];
+        const double w = 6.0 * P * x->reading.speed_rad_per_s * LAG_S, n = 6.0 * P;
+        const double mean = 1.0 - 0.5 * n * n * x->spread_rad2;
+        const double expected = mean * sin(n * x->reading.theta_m_rad - atan(w)) / sqrt(1.0 + w * w);
+        TEST_ASSERT_DOUBLE_WITHIN(0.02 * WAVE_NM, WAVE_NM * expected, reading.torque_Nm[k]);
+        TEST_ASSERT_DOUBLE_WITHIN(0.02, expected, reading.by_value[2 * k]);
+    }
+    hci_predicted_reading_release(&reading);
+}
+
+static void test_a_lag_between_samples(void)
+{
+    record_fast(N, 46.8, 0.1);
+    TEST_ASSERT_EQUAL_UINT64(0, dataset.samples.segment[0].turns);
+    check_lag(60);
+}
+
+/* The samples of each of ninety turns lie where those of the turn before lie, but for a little. */
+static void test_a_lag_of_a_mean_turn_of_few_angles(void)
+{
+    record_fast(LONG, 46.002, 0.0);
+    TEST_ASSERT_TRUE(dataset.samples.segment[0].turns > 0);
+    TEST_ASSERT_TRUE(dataset.samples.segment[0].count < 300);
+    TEST_ASSERT_TRUE(dataset.samples.sample[5].spread_rad2 > 0.0);
+    check_lag(0);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -157,5 +221,7 @@ int main(void)
     RUN_TEST(test_derivatives_between_samples);
     RUN_TEST(test_a_lag_of_no_duration);
     RUN_TEST(test_a_free_shaft_at_a_steady_speed);
+    RUN_TEST(test_a_lag_between_samples);
+    RUN_TEST(test_a_lag_of_a_mean_turn_of_few_angles);
     return UNITY_END();
 }

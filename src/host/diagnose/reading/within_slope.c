@@ -1,10 +1,10 @@
-#include "host/diagnose/fit/within_slope.h"
+#include "host/diagnose/reading/within_slope.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "host/base/memory.h"
-#include "host/diagnose/fit/predicted_reading.h"
+#include "host/diagnose/reading/predicted_reading.h"
 #include "host/numeric/statistics.h"
 
 #define OF_MEDIAN 1.4826 /* deviation over the median of its size, of a normal distribution */

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "host/diagnose/fit/predicted_reading.h"
+#include "host/diagnose/reading/predicted_reading.h"
 #include "host/numeric/slope_average.h"
 #include "support/effect_list.h"
 #include "support/recording.h"

@@ -1,6 +1,6 @@
 /* A list of effects without terms that add nothing to the torque. */
-#ifndef HCI_SRC_HOST_DIAGNOSE_FIT_SHORTER_LIST_H
-#define HCI_SRC_HOST_DIAGNOSE_FIT_SHORTER_LIST_H
+#ifndef HCI_SRC_HOST_DIAGNOSE_READING_SHORTER_LIST_H
+#define HCI_SRC_HOST_DIAGNOSE_READING_SHORTER_LIST_H
 
 #include <stdbool.h>
 

@@ -1,12 +1,14 @@
-#include "host/diagnose/fit/predicted_reading.h"
+#include "host/diagnose/reading/predicted_reading.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "host/base/memory.h"
-#include "host/diagnose/fit/between_samples.h"
-#include "host/diagnose/fit/shorter_list.h"
 #include "host/diagnose/prepare/turns.h"
+#include "host/diagnose/reading/along_time.h"
+#include "host/diagnose/reading/between_samples.h"
+#include "host/diagnose/reading/shorter_list.h"
+#include "host/diagnose/reading/wide_bins.h"
 #include "host/machine/torque_constant.h"
 #include "host/numeric/slope_average.h"
 #include "host/numeric/statistics.h"
@@ -15,27 +17,8 @@
 #define ROUNDING_OF_MEAN 1e-9 /* of the mean size of a derivative, that a mean of 0 has */
 #define SAME_SCALE       1e-6 /* departure of a torque per ampere that is rounding */
 #define LARGEST_SCALE    1e3  /* of a torque per ampere that has vanished */
-#define CLOSE            0.25 /* of the mean step: between angles that tell no curvature */
-
-enum { LEAST_LEAD = 4 /* samples, that inputs between samples are told from */ };
 
 enum { ANGLES_OF_MEAN = 97 /* a prime: evenly spread over the electrical and the mechanical turn */ };
-
-static unsigned traits_of(const hci_effect *effect, size_t term)
-{
-    return effect->type->parameter[effect->term[term].parameter].traits;
-}
-
-/* A lag or a resonance; a time constant of 0 is none. */
-static bool has_dynamics(const hci_effects *effects)
-{
-    for (size_t k = 0; k < effects->count; ++k) {
-        const hci_effect *e = &effects->effect[k];
-        for (size_t j = 0; j < e->count; ++j)
-            if ((traits_of(e, j) & HCI_PARAMETER_ALONG_TIME) && e->term[j].value != 0.0) return true;
-    }
-    return false;
-}
 
 /* Place of a time constant of 0 among all terms, or their number. */
 static size_t dormant_lag(const hci_effects *effects)
@@ -44,7 +27,7 @@ static size_t dormant_lag(const hci_effects *effects)
     for (size_t k = 0; k < effects->count; ++k) {
         const hci_effect *e = &effects->effect[k];
         for (size_t j = 0; j < e->count; ++j, ++place)
-            if ((traits_of(e, j) & HCI_PARAMETER_LAG) && !(e->term[j].value > 0.0)) return place;
+            if ((hci_effect_traits(e, j) & HCI_PARAMETER_LAG) && !(e->term[j].value > 0.0)) return place;
     }
     return place;
 }
@@ -62,7 +45,7 @@ static void lag_derivative(const double *torque, const double *time_s, size_t n,
 
 bool hci_predicted_reading_is_dynamic(const hci_regression *e, const hci_segment *s)
 {
-    return s->timed && (s->smooth || has_dynamics(e->declared)) &&
+    return s->timed && (s->smooth || hci_has_dynamics(e->declared)) &&
            e->runs[s->run].torque_source == HCI_TORQUE_MEASURED;
 }
 
@@ -78,58 +61,55 @@ static size_t turns_through(const hci_regression *e, const hci_segment *s)
     return s->turns > 0 && is_slope(e, s) ? HCI_SETTLING_TURNS : 1;
 }
 
+/* The step of the angle from sample to sample in which a place of a segment lies on the average, of a mean
+ * turn around it: where samples stand close together in some places, that is the step from one such place to
+ * the next.
+ */
+static double usual_step_rad(const hci_regression *e, const hci_segment *s)
+{
+    const hci_binned_sample *sample = e->samples->sample + s->first;
+    const double turn_rad = s->turns > 0 ? hci_turn_rad(&e->runs[s->run], e->machine->pole_pairs) : 0.0;
+    const double span_rad = fabs(sample[s->count - 1].reading.theta_m_rad - sample[0].reading.theta_m_rad);
+    const double last_rad = fmax(turn_rad - span_rad, 0.0);
+    double square = last_rad * last_rad, sum = last_rad;
+    for (size_t k = 1; k < s->count; ++k) {
+        const double step_rad = sample[k].reading.theta_m_rad - sample[k - 1].reading.theta_m_rad;
+        square += step_rad * step_rad;
+        sum += fabs(step_rad);
+    }
+    return sum > 0.0 ? square / sum : 0.0;
+}
+
+/* Whether the samples of a segment are means over bins. */
+static bool is_spread(const hci_regression *e, const hci_segment *s)
+{
+    for (size_t k = 0; k < s->count; ++k)
+        if (e->samples->sample[s->first + k].spread_rad2 > 0.0) return true;
+    return false;
+}
+
+/* In how many parts the steps of a segment are taken, at which the torque is asked: 1 where its samples lie
+ * close enough to tell what is between them, or nothing asks for that. */
+static size_t parts_of_step(const hci_regression *e, const hci_segment *s, bool dynamic, double finest_order)
+{
+    const bool asked =
+        (dynamic && hci_predicted_reading_is_dynamic(e, s)) || (s->turns > 0 && is_spread(e, s));
+    if (!asked || is_slope(e, s) || s->count < 3) return 1;
+    return hci_parts_of_step(usual_step_rad(e, s), finest_order, s->turns == 0);
+}
+
 /* The most room that a segment takes. */
-static size_t longest_run_through(const hci_regression *e, bool dynamic)
+static size_t longest_run_through(const hci_regression *e, bool dynamic, double finest_order)
 {
     size_t most = 1;
     for (size_t k = 0; k < e->samples->segment_count; ++k) {
         const hci_segment *s = &e->samples->segment[k];
         const size_t before = s->turns > 0 ? HCI_SETTLING_TURNS : 2;
-        const size_t n = s->count * (dynamic ? before : turns_through(e, s));
+        const size_t parts = parts_of_step(e, s, dynamic, finest_order);
+        const size_t n = s->count * parts * (dynamic ? before : turns_through(e, s));
         most = n > most ? n : most;
     }
     return most;
-}
-
-/* Lags and resonances that there are. */
-static size_t stages_in(const hci_effects *effects)
-{
-    size_t stages = 0;
-    for (size_t k = 0; k < effects->count; ++k) {
-        const hci_effect *e = &effects->effect[k];
-        stages += e->type->lag && hci_effect_value(e, e->type->lag[0]) > 0.0;
-        stages += e->type->resonance && hci_effect_value(e, e->type->resonance[0]) > 0.0;
-    }
-    return stages;
-}
-
-double hci_settling_s(const hci_effects *effects)
-{
-    double sum_s = 0.0;
-    for (size_t k = 0; k < effects->count; ++k) {
-        const hci_effect *e = &effects->effect[k];
-        const double tau_s = e->type->lag ? hci_effect_value(e, e->type->lag[0]) : 0.0;
-        const double omega =
-            e->type->resonance ? 2.0 * HCI_PI * hci_effect_value(e, e->type->resonance[0]) : 0.0;
-        const double damping = e->type->resonance ? hci_effect_value(e, e->type->resonance[1]) : 0.0;
-        const double slow = damping > 1.0 ? damping - sqrt(damping * damping - 1.0) : damping;
-        sum_s += HCI_SETTLED * tau_s;
-        if (omega > 0.0) sum_s += slow > 0.0 ? HCI_SETTLED / (slow * omega) : (double)INFINITY;
-    }
-    return sum_s;
-}
-
-size_t hci_settling_samples(const hci_binned_sample *sample, const hci_segment *s, double settling_s)
-{
-    const size_t most = (HCI_SETTLING_TURNS - 1) * s->count;
-    const double turns = s->period_s > 0.0 ? settling_s / s->period_s : 0.0;
-    if (!(turns < HCI_SETTLING_TURNS - 1)) return most;
-    const double last_s = sample[0].time_s + s->period_s - (settling_s - floor(turns) * s->period_s);
-    size_t of_turn = s->count;
-    while (of_turn > 0 && sample[of_turn - 1].time_s >= last_s)
-        --of_turn;
-    const size_t lead = (size_t)turns * s->count + (s->count - of_turn) + LEAST_LEAD;
-    return lead < most ? lead : most;
 }
 
 bool hci_run_reads_current(const hci_run *run)
@@ -172,8 +152,11 @@ static bool present_make(const hci_effects *effects, hci_predicted_reading *o)
 bool hci_predicted_reading_make(const hci_regression *e, const hci_effects *effects, bool derivatives,
                                 hci_predicted_reading *o)
 {
-    const size_t most = longest_run_through(e, has_dynamics(effects));
+    const double finest_order =
+        hci_has_dynamics(effects) ? hci_finest_order(e->machine, effects) : (double)NAN;
+    const size_t most = longest_run_through(e, hci_has_dynamics(effects), finest_order);
     memset(o, 0, sizeof *o);
+    o->finest_order = finest_order;
     o->terms = hci_effects_terms(effects);
     o->torque_Nm = hci_memory_new(5 * most + 5 * o->terms + 2, sizeof *o->torque_Nm);
     if (derivatives) o->by_value = hci_memory_new(most * (o->terms + 1), sizeof *o->by_value);
@@ -263,149 +246,75 @@ static double torque_at(const hci_regression *e, const hci_effects *effects, con
     return scale * torque_Nm;
 }
 
-/* Without the dynamics of the sensor. */
+/* The reading of row k. */
+static void row_fill(const hci_regression *e, const hci_effects *effects, const place *at, size_t k,
+                     hci_predicted_reading *o)
+{
+    double *by_value = o->by_value ? o->by_value + k * o->terms : NULL, current_Nm;
+    o->torque_Nm[k] = torque_at(e, effects, at, o, by_value, &current_Nm);
+    if (o->current_Nm) o->current_Nm[k] = current_Nm;
+}
+
+/* Without the dynamics of the sensor: rows of the samples, `parts` apart. */
 static void fill_static(const hci_regression *e, const hci_effects *effects, const hci_segment *s,
-                        hci_predicted_reading *o)
+                        size_t parts, hci_predicted_reading *o)
 {
     const hci_binned_sample *sample = e->samples->sample + s->first;
     for (size_t k = 0; k < s->count; ++k) {
-        double *by_value = o->by_value ? o->by_value + k * o->terms : NULL;
         const place at = {&e->runs[s->run], e->raw ? &sample[k].raw : &sample[k].reading,
                           e->parts ? &e->parts[s->first + k] : NULL};
-        double current_Nm;
-        o->torque_Nm[k] = torque_at(e, effects, &at, o, by_value, &current_Nm);
-        if (o->current_Nm) o->current_Nm[k] = current_Nm;
-        o->time_s[k] = sample[k].time_s;
+        row_fill(e, effects, &at, k * parts, o);
+        o->time_s[k * parts] = sample[k].time_s;
+    }
+}
+
+/* The sample that follows sample k of a segment, around a mean turn, and its time. */
+static hci_sample next_of(const hci_regression *e, const hci_segment *s, size_t k, double *time_s)
+{
+    const hci_binned_sample *sample = e->samples->sample + s->first;
+    const bool closes = k + 1 == s->count;
+    const hci_binned_sample *next = &sample[closes ? 0 : k + 1];
+    const double turn_rad = closes ? hci_turn_rad(&e->runs[s->run], e->machine->pole_pairs) : 0.0;
+    hci_sample x = e->raw ? next->raw : next->reading;
+    const double way = sample[s->count - 1].reading.theta_m_rad - sample[0].reading.theta_m_rad;
+    x.theta_m_rad += copysign(turn_rad, way);
+    *time_s = next->time_s + (closes ? s->period_s : 0.0);
+    return x;
+}
+
+/* And of the places between them, where there are parts. */
+static void fill_between(const hci_regression *e, const hci_effects *effects, const hci_segment *s,
+                         size_t parts, hci_predicted_reading *o)
+{
+    const hci_binned_sample *sample = e->samples->sample + s->first;
+    const size_t steps = s->turns > 0 ? s->count : s->count - 1;
+    for (size_t k = 0; parts > 1 && k < steps; ++k) {
+        double next_s;
+        const hci_sample *from = e->raw ? &sample[k].raw : &sample[k].reading, to = next_of(e, s, k, &next_s);
+        for (size_t j = 1; j < parts; ++j) {
+            const double share = (double)j / (double)parts;
+            const hci_sample x = hci_sample_between(from, &to, e->machine->pole_pairs, share);
+            row_fill(e, effects, &(place){&e->runs[s->run], &x, NULL}, k * parts + j, o);
+            o->time_s[k * parts + j] = sample[k].time_s + share * (next_s - sample[k].time_s);
+        }
     }
 }
 
 /* ---- means over bins ---- */
 
-/* The step of angle from sample k to the next one, around the turn; 0 where there is none. */
-static double step_at(const hci_binned_sample *sample, size_t n, double turn_rad, size_t k)
+static hci_wide_bins bins_of(const hci_regression *e, const hci_segment *s)
 {
-    const size_t next = k + 1 < n ? k + 1 : 0;
-    const double step = fabs(sample[next].reading.theta_m_rad - sample[k].reading.theta_m_rad);
-    return k + 1 < n ? step : turn_rad > step ? turn_rad - step : 0.0;
-}
-
-/* What the curvatures by the angle are multiplied with, and the steps behind and ahead. */
-typedef struct {
-    double half_spread, behind, ahead;
-} bend;
-
-/* Adds to a row half the variance of the angles times the curvature of a parabola through its neighbours.
- * before: in and out, the row before as it was. */
-static void row_bend(const bend *x, double *row, const double *after, double *before, size_t columns)
-{
-    const double scale = 2.0 * x->half_spread / (x->behind + x->ahead);
-    for (size_t c = 0; c < columns; ++c) {
-        const double here = row[c];
-        row[c] += scale * ((after[c] - here) / x->ahead - (here - before[c]) / x->behind);
-        before[c] = here;
-    }
-}
-
-/* A sample that is the mean over a wide bin shows the mean of the torque over it, not the torque at its mean
- * angle. turn_rad: 0 where the last sample is not followed by the first. row: [2 columns]. */
-static void bins_widen(const hci_binned_sample *sample, size_t n, double turn_rad, double *x, size_t columns,
-                       double *row)
-{
-    const double least =
-        CLOSE * fabs(sample[n - 1].reading.theta_m_rad - sample[0].reading.theta_m_rad) / (double)n;
-    double *first = row + columns, last_step = step_at(sample, n, turn_rad, n - 1);
-    memcpy(row, x + (n - 1) * columns, columns * sizeof *row);
-    memcpy(first, x, columns * sizeof *first);
-    for (size_t k = 0; k < n; ++k) {
-        const bend b = {0.5 * sample[k].spread_rad2, last_step, step_at(sample, n, turn_rad, k)};
-        last_step = b.ahead;
-        if (b.half_spread > 0.0 && b.behind > least && b.ahead > least)
-            row_bend(&b, x + k * columns, k + 1 < n ? x + (k + 1) * columns : first, row, columns);
-        else
-            memcpy(row, x + k * columns, columns * sizeof *row);
-    }
+    const double turn_rad = s->turns > 0 ? hci_turn_rad(&e->runs[s->run], e->machine->pole_pairs) : 0.0;
+    return (hci_wide_bins){e->samples->sample + s->first, s->count, turn_rad};
 }
 
 static void means_widen(const hci_regression *e, const hci_segment *s, hci_predicted_reading *o)
 {
-    const hci_binned_sample *sample = e->samples->sample + s->first;
-    const double turn_rad = s->turns > 0 ? hci_turn_rad(&e->runs[s->run], e->machine->pole_pairs) : 0.0;
-    bool spread = false;
-    for (size_t k = 0; k < s->count && !spread; ++k)
-        spread = sample[k].spread_rad2 > 0.0;
-    if (!spread || s->count < 3) return;
-    bins_widen(sample, s->count, turn_rad, o->torque_Nm, 1, o->row);
-    if (o->current_Nm) bins_widen(sample, s->count, turn_rad, o->current_Nm, 1, o->row);
-    if (o->by_value && o->terms > 0) bins_widen(sample, s->count, turn_rad, o->by_value, o->terms, o->row);
-}
-
-/* ---- along time ---- */
-
-/* Writes the first turn n samples long again behind it. */
-static void turn_repeat(hci_predicted_reading *o, size_t n, size_t turn, double period_s)
-{
-    memcpy(o->torque_Nm + turn * n, o->torque_Nm, n * sizeof *o->torque_Nm);
-    if (o->current_Nm) memcpy(o->current_Nm + turn * n, o->current_Nm, n * sizeof *o->current_Nm);
-    if (o->by_value)
-        memcpy(o->by_value + turn * n * o->terms, o->by_value, n * o->terms * sizeof *o->by_value);
-    for (size_t k = 0; k < n; ++k)
-        o->time_s[turn * n + k] = o->time_s[k] + (double)turn * period_s;
-}
-
-/* Keeps n samples from one on: of the last turn, in which a sensor has settled, or of one between others. */
-static void turn_keep(hci_predicted_reading *o, size_t n, size_t first)
-{
-    memmove(o->torque_Nm, o->torque_Nm + first, n * sizeof *o->torque_Nm);
-    if (o->current_Nm) memmove(o->current_Nm, o->current_Nm + first, n * sizeof *o->current_Nm);
-    if (o->by_value) memmove(o->by_value, o->by_value + first * o->terms, n * o->terms * sizeof *o->by_value);
-}
-
-/* Puts as many samples before a steady turn of n as those of the turns before it. */
-static void turns_before(hci_predicted_reading *o, size_t n, size_t lead, double period_s)
-{
-    memmove(o->torque_Nm + lead, o->torque_Nm, n * sizeof *o->torque_Nm);
-    memmove(o->time_s + lead, o->time_s, n * sizeof *o->time_s);
-    if (o->by_value) memmove(o->by_value + lead * o->terms, o->by_value, n * o->terms * sizeof *o->by_value);
-    for (size_t k = lead; k-- > 0;) {
-        o->torque_Nm[k] = o->torque_Nm[k + n];
-        o->time_s[k] = o->time_s[k + n] - period_s;
-        if (o->by_value)
-            memcpy(o->by_value + k * o->terms, o->by_value + (k + n) * o->terms,
-                   o->terms * sizeof *o->by_value);
-    }
-}
-
-/* Samples of the first period of a segment; 0 where it is shorter than that. */
-static size_t first_period(const hci_binned_sample *sample, size_t count, double period_rad)
-{
-    for (size_t k = 1; k < count; ++k)
-        if (fabs(sample[k].reading.theta_m_rad - sample[0].reading.theta_m_rad) >= period_rad) return k;
-    return 0;
-}
-
-/* A sensor that swings has been swinging before a steady recording began: its first turn, or where it has
- * none its first electrical period, is run through before. Returns of how many samples that is. */
-static size_t lead_in(const hci_regression *e, const hci_segment *s, hci_predicted_reading *o)
-{
-    const hci_binned_sample *sample = e->samples->sample + s->first;
-    const int p = e->machine->pole_pairs;
-    double period_rad = hci_turn_rad(&e->runs[s->run], p);
-    size_t lead = first_period(sample, s->count, period_rad);
-    if (lead == 0) lead = first_period(sample, s->count, period_rad = 2.0 * HCI_PI / p);
-    if (lead == 0) return 0;
-    const double beyond = fabs(sample[lead].reading.theta_m_rad - sample[0].reading.theta_m_rad) - period_rad;
-    const double step = fabs(sample[lead].reading.theta_m_rad - sample[lead - 1].reading.theta_m_rad);
-    const double period_s =
-        o->time_s[lead] - beyond / step * (o->time_s[lead] - o->time_s[lead - 1]) - o->time_s[0];
-    turn_repeat(o, s->count, 1, 0.0);
-    memmove(o->torque_Nm + lead, o->torque_Nm + s->count, s->count * sizeof *o->torque_Nm);
-    memmove(o->time_s + lead, o->time_s + s->count, s->count * sizeof *o->time_s);
-    if (o->by_value)
-        memmove(o->by_value + lead * o->terms, o->by_value + s->count * o->terms,
-                s->count * o->terms * sizeof *o->by_value);
-    for (size_t k = 0; k < lead; ++k)
-        o->time_s[k] -= period_s;
-    return lead;
+    const hci_wide_bins bins = bins_of(e, s);
+    if (!is_spread(e, s) || s->count < 3) return;
+    hci_bins_widen(&bins, o->torque_Nm, 1, o->row);
+    if (o->current_Nm) hci_bins_widen(&bins, o->current_Nm, 1, o->row);
+    if (o->by_value && o->terms > 0) hci_bins_widen(&bins, o->by_value, o->terms, o->row);
 }
 
 /* Samples of a segment that a window of so many of its run spans. */
@@ -494,34 +403,49 @@ static void scale_hold(const hci_predicted_reading *o, size_t count)
             o->by_value[k * o->terms + c] -= o->current_Nm[k] * share * o->constant_by_value[c];
 }
 
+/* Of rows in parts, behind so many others, those of the samples. */
+static void parts_close(const hci_regression *e, const hci_segment *s, size_t parts, size_t lead,
+                        hci_predicted_reading *o)
+{
+    const hci_wide_bins bins = bins_of(e, s);
+    if (parts > 1 && s->turns > 0) {
+        hci_parts_widen(&bins, parts, lead, o->torque_Nm, 1);
+        if (o->by_value) hci_parts_widen(&bins, parts, lead, o->by_value, o->terms);
+    }
+    if (lead > 0 || parts > 1) hci_samples_keep(o, s->count, lead, parts);
+}
+
+/* The torque at the samples of a segment, in parts of the steps where there are. */
+static void fill(const hci_regression *e, const hci_effects *effects, const hci_segment *s, size_t parts,
+                 hci_predicted_reading *o)
+{
+    o->asked = s->count * parts;
+    fill_static(e, effects, s, parts, o);
+    if (parts > 1)
+        fill_between(e, effects, s, parts, o);
+    else
+        means_widen(e, s, o);
+}
+
 void hci_predicted_reading_fill(const hci_regression *e, const hci_effects *effects, const hci_segment *s,
                                 hci_predicted_reading *o)
 {
-    const bool sensor = hci_predicted_reading_is_dynamic(e, s), dynamic = sensor && has_dynamics(effects);
+    const bool sensor = hci_predicted_reading_is_dynamic(e, s), dynamic = sensor && hci_has_dynamics(effects);
     const size_t turns = turns_through(e, s), lag = dormant_lag(effects);
-    size_t lead = 0;
+    const size_t parts = parts_of_step(e, s, dynamic, o->finest_order);
     const bool of_steps = is_coarse_slope(e, effects, s, o);
-    o->asked = of_steps ? 0 : s->count;
+    o->asked = o->filtered = 0;
     if (of_steps)
         steps_fill(e, effects, s, o);
-    else {
-        fill_static(e, effects, s, o);
-        means_widen(e, s, o);
-    }
+    else
+        fill(e, effects, s, parts, o);
     if (o->by_value && sensor && lag < o->terms)
-        lag_derivative(o->torque_Nm, o->time_s, s->count, o->by_value + lag, o->terms);
+        lag_derivative(o->torque_Nm, o->time_s, hci_rows_in(s, parts), o->by_value + lag, o->terms);
     for (size_t turn = 1; turn < turns; ++turn)
-        turn_repeat(o, s->count, turn, s->period_s);
-    if (dynamic && s->turns > 0) {
-        lead = hci_settling_samples(e->samples->sample + s->first, s, hci_settling_s(effects));
-        turns_before(o, s->count, lead, s->period_s);
-    } else if (dynamic)
-        lead = lead_in(e, s, o);
-    o->filtered = dynamic ? stages_in(effects) * (lead + s->count) : 0;
-    if (dynamic) hci_effects_filter(effects, o->time_s, lead + s->count, o->torque_Nm, o->by_value);
+        hci_turn_repeat(o, s->count, turn, s->period_s);
+    parts_close(e, s, parts, dynamic ? hci_reading_along_time(e, effects, s, parts, o) : 0, o);
     if (is_slope(e, s) && !o->instant) average(e, s, turns * s->count, of_steps, o);
-    if (lead > 0) turn_keep(o, s->count, lead);
-    if (turns > 1) turn_keep(o, s->count, turns / 2 * s->count);
+    if (turns > 1) hci_turn_keep(o, s->count, turns / 2 * s->count);
     if (o->current_Nm && !o->apart) scale_hold(o, s->count);
 }
 

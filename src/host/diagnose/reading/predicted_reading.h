@@ -9,10 +9,10 @@
  * current that would make it: it is given in units of the declared torque per ampere, so that a model which
  * makes no torque at all does not describe every holding test. The same holds for a free shaft that hardly
  * accelerates. */
-#ifndef HCI_SRC_HOST_DIAGNOSE_FIT_PREDICTED_READING_H
-#define HCI_SRC_HOST_DIAGNOSE_FIT_PREDICTED_READING_H
+#ifndef HCI_SRC_HOST_DIAGNOSE_READING_PREDICTED_READING_H
+#define HCI_SRC_HOST_DIAGNOSE_READING_PREDICTED_READING_H
 
-#include "host/diagnose/fit/regression.h"
+#include "host/diagnose/reading/regression.h"
 
 /* The mean of a steady turn is run through so many times at most, so that a slow sensor settles. */
 enum { HCI_SETTLING_TURNS = 4 };
@@ -40,7 +40,8 @@ typedef struct {
     bool instant; /* wanted as it is at each sample, not as a slope shows it */
     bool apart;   /* wanted: derivatives at a scale of the current's torque that stays as it is */
     size_t terms;
-    size_t asked;    /* out: samples and places between them that the model was asked at, of a segment */
+    double finest_order; /* of a model whose sensor answers along time; NAN: it does not */
+    size_t asked;        /* out: samples and places between them that the model was asked at, of a segment */
     size_t filtered; /* out: samples that went through a stage of a torque sensor, those before included */
     double holding_scale; /* of torques that stand for a current: declared over modelled torque per ampere */
     double *current_Nm;   /* [samples], what a current makes of torque_Nm where its scale is no value of the

@@ -1,6 +1,6 @@
 /* Means over wide bins of the turn against every row of the recording: least squares on the rows themselves
  * gives the same values, within a tenth of their standard errors, and the same squares. */
-#include "host/diagnose/fit/predicted_reading.h"
+#include "host/diagnose/reading/predicted_reading.h"
 
 #include "hci/math/dense.h"
 #include "host/diagnose/search/settle.h"

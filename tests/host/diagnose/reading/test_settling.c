@@ -1,7 +1,7 @@
 /* The mean of a steady turn behind a slow sensor is that of a sensor that has settled, from its first sample
  * on: closed form of a lag and of a resonance at one order. */
 #include "host/diagnose/fit/linearise.h"
-#include "host/diagnose/fit/predicted_reading.h"
+#include "host/diagnose/reading/predicted_reading.h"
 
 #include "support/searching.h"
 

@@ -1,4 +1,4 @@
-#include "host/diagnose/fit/shorter_list.h"
+#include "host/diagnose/reading/shorter_list.h"
 
 static unsigned traits_of(const hci_effect *effect, size_t k)
 {

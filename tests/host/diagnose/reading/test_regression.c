@@ -1,5 +1,5 @@
 /* What a regression looks at: runs in use, one at a time, and the work that is counted. */
-#include "host/diagnose/fit/regression.h"
+#include "host/diagnose/reading/regression.h"
 
 #include <math.h>
 #include <string.h>

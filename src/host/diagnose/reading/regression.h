@@ -1,6 +1,6 @@
 /* What the search regresses the torque on: a machine, and the samples of the runs in use with their noise. */
-#ifndef HCI_SRC_HOST_DIAGNOSE_FIT_REGRESSION_H
-#define HCI_SRC_HOST_DIAGNOSE_FIT_REGRESSION_H
+#ifndef HCI_SRC_HOST_DIAGNOSE_READING_REGRESSION_H
+#define HCI_SRC_HOST_DIAGNOSE_READING_REGRESSION_H
 
 #include "hci/machine/torque.h"
 #include "host/base/watch.h"

@@ -4,10 +4,10 @@
  * the deviation by the median, for which a few steps of the current do not count. What the drive did between
  * samples is not recorded, so a share of it is an error of the reading and no noise: it repeats with the
  * angle. */
-#ifndef HCI_SRC_HOST_DIAGNOSE_FIT_WITHIN_SLOPE_H
-#define HCI_SRC_HOST_DIAGNOSE_FIT_WITHIN_SLOPE_H
+#ifndef HCI_SRC_HOST_DIAGNOSE_READING_WITHIN_SLOPE_H
+#define HCI_SRC_HOST_DIAGNOSE_READING_WITHIN_SLOPE_H
 
-#include "host/diagnose/fit/regression.h"
+#include "host/diagnose/reading/regression.h"
 
 /* Over the runs in use; 0 without a free shaft. HCI_ERROR_MEMORY. O(samples·terms). */
 hci_status hci_within_slope_find(const hci_regression *regression, const hci_effects *effects,
