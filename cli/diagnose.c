@@ -21,7 +21,19 @@
 #include "hci/host/report/write.h"
 #include "hci/math/harmonic.h"
 
-enum { RUNS, AGAIN, OUT, TARGET, RESOLUTION, ORDER_BASE, REPORT, HOLDING, CLI_READING_KEYS, CLI_COMMON_KEYS };
+enum {
+    RUNS,
+    AGAIN,
+    OUT,
+    TARGET,
+    RESOLUTION,
+    WORK,
+    ORDER_BASE,
+    REPORT,
+    HOLDING,
+    CLI_READING_KEYS,
+    CLI_COMMON_KEYS
+};
 
 static const cli_option OPTIONS[] = {
     [RUNS] = {"runs", 0, CLI_FILE, "LIST",
@@ -36,6 +48,9 @@ static const cli_option OPTIONS[] = {
     [RESOLUTION] = {"resolution", 0, CLI_NUMBER, "PERCENT",
                     .help = "of the largest torque; what the model need not be better than [0.05]",
                     .low = 1e-6, .high = 50.0},
+    [WORK] = {"work", 0, CLI_NUMBER, "TIMES",
+              .help = "how much the search may do: times the usual, which takes some 5 s [1]", .low = 0.01,
+              .high = 1e4},
     [REPORT] = {"report", 0, CLI_FLAG, NULL,
                 .help = "report.html is written in any case; taken for the sake of scripts"},
     [HOLDING] = CLI_HOLDING_OPTION,
@@ -187,6 +202,7 @@ static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note
     status = cli_reading_take(a, a->given[STRICT], a->value[ANGLE_OFFSET], &in->reading, note);
     if (!status) status = find_machine(a, in, note);
     in->options.resolution = cli_number_or(a, RESOLUTION, 0.0) / 100.0;
+    in->options.work = cli_number_or(a, WORK, 0.0);
     in->options.progress = cli_progress;
     const hci_order_base base = (hci_order_base)a->choice[ORDER_BASE];
     if (!status) status = hci_machine_read_orders(in->folder, base, &in->machine, note);

@@ -27,6 +27,7 @@ enum {
     TUNE_TORQUE,
     TUNE_BANDWIDTH,
     TUNE_SPEED,
+    TUNE_WORK,
     TUNE_NAME,
     TUNE_OUT,
     TUNE_HOLDING,

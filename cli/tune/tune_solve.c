@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/command/parse.h"
 #include "cli/terminal/progress.h"
 #include "cli/tune/tune_commands.h"
 #include "cli/tune/tune_cover.h"
@@ -20,12 +21,14 @@
 
 hci_status cli_tune_diagnose(cli_tuning *t, hci_note *note)
 {
-    const hci_diagnose_options options = {.progress = cli_progress};
+    const cli_arguments *a = t->arguments;
+    const hci_diagnose_options options = {.progress = cli_progress, .work = cli_number_or(a, TUNE_WORK, 0.0)};
     char folder[CLI_TUNE_PATH];
     cli_tune_line c = {{"diagnose", t->machine, "--runs", t->list}, 4};
     if (cli_tune_is_blocked(t)) return HCI_OK;
     cli_tune_path(t, "diagnose", folder);
-    if (t->arguments->given[TUNE_HOLDING]) cli_tune_add_option(&c, "holding", NULL);
+    if (a->given[TUNE_HOLDING]) cli_tune_add_option(&c, "holding", NULL);
+    if (a->given[TUNE_WORK]) cli_tune_add_option(&c, "work", a->value[TUNE_WORK]);
     cli_tune_add_reading(&c, t);
     cli_tune_add(&c, "-o");
     cli_tune_add(&c, folder);

@@ -81,6 +81,13 @@ after=$(awk -F, '$1 == "held.csv" { printf "%.6f", $5 }' deep/out/errors.csv)
 check "predict says other than $after: $(row stdout residual)" \
     [ "$(awk '/residual/ { printf "%.4f", $2 }' stdout)" = "$(awk "BEGIN { printf \"%.4f\", $after }")" ]
 
+# A hundredth of the work is at its limit before all is compared, and says how it gets further.
+run 1 diagnose machine --runs list.csv --work 0.01
+says 'limit of its work' 'work 4'
+run 0 diagnose machine --runs list.csv --work 4
+says ': explained$'
+run 2 diagnose machine --runs list.csv --work 0
+
 # ---- not told apart
 
 recordings 0 0.05 a.csv:60:1 b.csv:60:4 c.csv:60:8

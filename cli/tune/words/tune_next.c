@@ -45,10 +45,12 @@ static bool has_load(const cli_tuning *t)
 static void say_next_on_machine(cli_tuning *t)
 {
     if (t->diagnosis.search != HCI_WORK_COMPLETE)
-        hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
-                       "Before another recording: the search for effects ended before all had been compared. "
-                       "It gets further with %sMACHINE --runs LIST and what is known in MACHINE/effects.csv.",
-                       t->runs.count > 1 ? "fewer logs, or with " : "");
+        hci_tuning_say(
+            &t->tuning, HCI_TUNING_NEXT,
+            "Before another recording: the search for effects ended before all had been compared. "
+            "It gets further with --work 4, which takes up to four times as long%s, or with MACHINE "
+            "--runs LIST and what is known in MACHINE/effects.csv.",
+            t->runs.count > 1 ? ", with fewer logs" : "");
     else if (!has_sensor(t))
         hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
                        "On the same bench: the same slow turn forward and back with the table in the drive "

@@ -460,6 +460,14 @@ typedef struct {
     double work;                 /* of what the search may take, that counts as done before it begins */
 } task;
 
+/* With as much work as is wanted. */
+static hci_status dataset_of(const task *t, const hci_effects *declared, hci_dataset *b, hci_note *note)
+{
+    const hci_status status = hci_dataset_make(t->machine, declared, t->runs, b, note);
+    if (!status && t->options->work > 0.0) b->regression.work_times *= t->options->work;
+    return status;
+}
+
 /* What is shown is kept: the search of all runs goes on from there. */
 static hci_status look_at(void *context, const hci_candidates *model, const hci_effects *effects,
                           hci_note *note)
@@ -652,7 +660,7 @@ static hci_status diagnose_from(const task *t, hci_diagnosis *diagnosis, hci_not
 {
     hci_dataset b;
     if (t->dataset) return diagnose_with(t->dataset, t, diagnosis, note);
-    hci_status status = hci_dataset_make(t->machine, t->declared, t->runs, &b, note);
+    hci_status status = dataset_of(t, t->declared, &b, note);
     if (status) return status;
     status = diagnose_with(&b, t, diagnosis, note);
     hci_dataset_release(&b);
@@ -753,7 +761,7 @@ static hci_status confirm(const task *t, const hci_diagnosis *d, hci_odd_run *od
     hci_odd_run again;
     hci_dataset b;
     if (*certain || d->search != HCI_WORK_COMPLETE || d->verdict > HCI_DIAGNOSIS_AMBIGUOUS) return HCI_OK;
-    hci_status status = hci_dataset_make(t->machine, &d->effects.list, t->runs, &b, note);
+    hci_status status = dataset_of(t, &d->effects.list, &b, note);
     if (status) return status;
     status = hci_odd_run_find(t->machine, &b, t->runs, &again, certain, note);
     hci_dataset_release(&b);
@@ -821,7 +829,7 @@ static hci_status diagnose_runs(const task *t, hci_diagnosis *d, hci_note *note)
     hci_dataset b;
     task all = *t;
     if (!hci_odd_run_is_asked(t->runs)) return diagnose_all(t, d, note);
-    hci_status status = hci_dataset_make(t->machine, t->declared, t->runs, &b, note);
+    hci_status status = dataset_of(t, t->declared, &b, note);
     if (status) return status;
     all.dataset = &b;
     status = diagnose_any(&all, d, note);

@@ -25,6 +25,7 @@ typedef struct {
     void *progress_context;  /* first argument of progress */
     hci_stop *stop;          /* asked during the search for effects and what follows; may be NULL */
     void *stop_context;      /* first argument of stop */
+    double work;             /* of the search, > 0: times the usual limit; 0: once */
     hci_diagnose_slip *slip; /* asked where the declared machine leaves more than half of all torque: no
                               * effect is looked for then if there is one; may be NULL */
     void *slip_context;      /* first argument of slip */

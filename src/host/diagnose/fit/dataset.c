@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "host/base/memory.h"
-#include "host/diagnose/reading/predicted_reading.h"
 #include "host/diagnose/prepare/index_alignment.h"
+#include "host/diagnose/reading/predicted_reading.h"
 #include "host/machine/torque_constant.h"
 
 #define WORSE    1.02 /* of the residual with smoothed readings, beside that with readings as they are */
@@ -40,6 +40,15 @@ static hci_torque_parts *parts_new(size_t samples)
     return parts;
 }
 
+/* How many times as many rows as a usual list has. */
+static double work_times(const hci_runs *runs)
+{
+    double rows = 0.0;
+    for (size_t k = 0; k < runs->count; ++k)
+        rows += (double)runs->run[k].count;
+    return fmin(fmax(rows / HCI_USUAL_ROWS, 1.0), HCI_LONG_TIMES);
+}
+
 static hci_status evidence_make(const hci_machine_data *machine, const hci_effects *declared,
                                 const hci_runs *runs, hci_dataset *b, hci_note *note)
 {
@@ -54,7 +63,8 @@ static hci_status evidence_make(const hci_machine_data *machine, const hci_effec
                           .use = b->fit,
                           .known = &b->known,
                           .columns = &b->columns,
-                          .work = &b->work};
+                          .work = &b->work,
+                          .work_times = work_times(runs)};
     e->saliency = hci_saliency_width_of(machine);
     e->noise = hci_memory_new(b->samples.segment_count + 1, sizeof *e->noise);
     e->sum_deviation_A = hci_memory_new(runs->count + 1, sizeof *e->sum_deviation_A);

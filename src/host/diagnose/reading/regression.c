@@ -73,7 +73,7 @@ void hci_regression_count_filtered(const hci_regression *e, size_t samples, size
 
 void hci_regression_count_products(const hci_regression *e, double products)
 {
-    if (e->work) *e->work += products;
+    if (e->work) *e->work += products / (e->work_times > 0.0 ? e->work_times : 1.0);
 }
 
 bool hci_regression_mean_is_free(const hci_regression *e, const hci_segment *s)

@@ -25,7 +25,8 @@ typedef struct {
     hci_known_equations *known;  /* of models linearised before; NULL: none are kept */
     hci_known_columns *columns;  /* derivatives that were predicted before; NULL: none are kept */
     hci_torque_parts *parts;     /* of each sample, as hci_effects_predict_again keeps them; NULL: none are */
-    double *work;                /* multiplications so far, about; NULL: not counted */
+    double *work;                /* multiplications so far, about, over work_times; NULL: not counted */
+    double work_times;           /* as much may be taken as for a usual list; 0: once */
     bool free_means;             /* of each segment: nothing is concluded from them */
     hci_watch *watch;            /* of what follows the search; NULL: it is not ended, and not told */
     hci_saliency_width saliency; /* what the machine's own leaves open */
@@ -35,6 +36,10 @@ typedef struct {
  * besides, behind which fits end after a few steps. */
 #define HCI_MOST_WORK       5.5e10
 #define HCI_WORK_OF_JUDGING 1.5e10
+
+/* A list of more rows than this may take as many times as much, up to three times. */
+#define HCI_USUAL_ROWS 60000.0
+#define HCI_LONG_TIMES 3.0
 
 /* The segment of a run in use that follows `after` (NULL: the first one); NULL behind the last. */
 const hci_segment *hci_regression_next(const hci_regression *regression, const hci_segment *after);

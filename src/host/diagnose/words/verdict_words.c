@@ -440,18 +440,20 @@ static void say_search(const hci_words *w, const hci_diagnosis *d)
         hci_words_say(
             w,
             "%s: nothing but noise is left, yet others that may describe the recordings as well have not "
-            "been compared with it, so that this is not called sure (exit code 1). ",
+            "been compared with it, so that this is not called sure (exit code 1)%s. ",
             d->search == HCI_WORK_INTERRUPTED ? "The search was interrupted"
-                                              : "The search reached the limit of its work");
+                                              : "The search reached the limit of its work",
+            d->search == HCI_WORK_INTERRUPTED ? "" : "; --work 4 lets it take up to four times as long");
         return;
     }
     hci_words_say(w,
                   "%s: this is the best model that it had found; others have not been compared with it%s. ",
                   d->search == HCI_WORK_INTERRUPTED ? "The search was interrupted"
                                                     : "The search reached the limit of its work",
-                  d->search == HCI_WORK_INTERRUPTED
-                      ? ""
-                      : " (it gets further with fewer runs, or where effects.csv declares what is known)");
+                  d->search == HCI_WORK_INTERRUPTED ? ""
+                                                    : " (it gets further with --work 4, which takes up to "
+                                                      "four times as long, with fewer runs, or where "
+                                                      "effects.csv declares what is known)");
 }
 
 static void say_nothing_measured(const hci_words *w)

@@ -143,6 +143,10 @@ static void test_work_that_is_counted(void)
     TEST_ASSERT_EQUAL_DOUBLE(5.0 + 7.0 * 4810.0 + 2.0 * 6300.0, work);
     hci_regression_count_products(&regression, 11.0);
     TEST_ASSERT_EQUAL_DOUBLE(16.0 + 7.0 * 4810.0 + 2.0 * 6300.0, work);
+    regression.work_times = 4.0; /* as much may be taken */
+    hci_regression_count_products(&regression, 12.0);
+    TEST_ASSERT_EQUAL_DOUBLE(19.0 + 7.0 * 4810.0 + 2.0 * 6300.0, work);
+    regression.work_times = 0.0;
 }
 
 /* ---- noise of short segments ---- */
