@@ -65,7 +65,7 @@ static void say_components(cli_tuning *t)
     for (size_t k = 0; k < c->count; ++k)
         most = fmax(most, c->wave[k].order);
     hci_tuning_say(
-        &t->tuning, HCI_TUNING_LOAD,
+        &t->tuning, HCI_TUNING_ELSE,
         "The currents have %zu component%s up to order %.4g of a phase, which is %.3g Hz at 100 rpm (in i_d "
         "and "
         "i_q up to one order more)%s.",
@@ -81,7 +81,7 @@ static void say_per_torque(cli_tuning *t, const char *currents, const char *name
 {
     if (t->solution.per_Nm == NULL) return;
     hci_tuning_say(
-        &t->tuning, HCI_TUNING_LOAD,
+        &t->tuning, HCI_TUNING_ELSE,
         "Where the torque changes, as in a joint that moves freely, load it in two parts, one of them times "
         "the torque, up to %.3g N·m, for which it was solved (tune --torque for more): hci-solve emit %s "
         "--name %s --frame dq --per-torque --machine %s%s%s%s -o FOLDER.",
@@ -98,9 +98,8 @@ static void say_table(cli_tuning *t, const char *name, const char *folder, const
         "%s/%s.h and %s.c need hci/table.h alone: `hci_currents_dq i = hci_table_f32_dq(&%s, "
         "angle);`, where 2^32 of "
         "the angle is %lu electrical turn%s from %s%s%s%s. They are the whole "
-        "reference for %.4g N·m (docs/controller.md); their cut makes %.2g N·m of ripple, which is in the "
-        "figures above, and not in those of %s/report.html; another --max-error of emit makes it less, or "
-        "the table smaller.",
+        "reference for %.4g N·m (docs/controller.md). The figures above have the %.2g N·m of ripple that the "
+        "cut to the table makes, those of %s/report.html do not.",
         folder, name, name, name, h->turns, h->turns == 1 ? "" : "s",
         cli_tune_is_without_angle(t) ? "where the back-EMF of phase a rises through zero, which no log shows "
                                        "an angle of"
@@ -114,13 +113,13 @@ static void say_table(cli_tuning *t, const char *name, const char *folder, const
 static void say_other_drives(cli_tuning *t, const char *currents, const char *machine, unsigned long turns)
 {
     const char *name = t->arguments->value[TUNE_NAME] ? t->arguments->value[TUNE_NAME] : "tuned";
-    hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
+    hci_tuning_say(&t->tuning, HCI_TUNING_ELSE,
                    "For a drive whose firmware is somebody else's: hci-solve emit %s --name %s --for %s "
                    "--machine %s%s -o FOLDER, a new one, or another drive of docs/drives.",
                    currents, name, turns > 1 ? "moteus" : "simplefoc", machine,
                    cli_tune_knows_zero(t) ? "" : " --angle-of-logs");
     if (cli_tune_offset(t))
-        hci_tuning_say(&t->tuning, HCI_TUNING_LOAD,
+        hci_tuning_say(&t->tuning, HCI_TUNING_ELSE,
                        "The zero of the logs is not the machine's: a map over the encoder's turn takes "
                        "--encoder-offset %.6g besides (mechanical degrees, of the encoder that was logged).",
                        -strtod(cli_tune_offset(t), NULL) / t->declared.model.pole_pairs);
@@ -168,9 +167,9 @@ hci_status cli_tune_emit(cli_tuning *t, hci_note *note)
         hci_expected_ripple_add_table(&t->solution.expected, header.own_Nm, t->mean_Nm);
     if (cli_tune_is_of_no_use(t) || cli_tune_is_never_seen(t)) return say_nothing(t, folder, name);
     say_table(t, name, folder, currents, &header);
+    say_first_turn(t, machine, currents);
     say_other_drives(t, currents, machine, header.turns);
     say_components(t);
     say_per_torque(t, currents, name, machine);
-    say_first_turn(t, machine, currents);
     return HCI_OK;
 }

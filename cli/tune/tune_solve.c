@@ -295,7 +295,7 @@ static void take_mean_out(double open_Nm[HCI_TUNING_POINTS])
         open_Nm[k] -= mean_Nm;
 }
 
-/* What the corrected machine makes without current: over a mechanical turn where the logs know it. */
+/* What the corrected machine makes without current, over the period of the currents. */
 static hci_status open_torque(cli_tuning *t, hci_note *note)
 {
     static double theta_m_rad[HCI_TUNING_POINTS], i_A[3 * HCI_TUNING_POINTS], still[HCI_TUNING_POINTS];
@@ -305,9 +305,7 @@ static hci_status open_torque(cli_tuning *t, hci_note *note)
                    .speed_rad_per_s = still,
                    .i_A = i_A,
                    .turn_known = true};
-    for (size_t k = 0; k < t->runs.count; ++k)
-        t->tuning.open_is_mechanical = t->tuning.open_is_mechanical || t->runs.run[k].turn_known;
-    const double turns = t->tuning.open_is_mechanical ? 1.0 : 1.0 / run.pole_pairs;
+    const double turns = fmax(1.0, (double)t->solution.period_turns) / run.pole_pairs;
     for (size_t k = 0; k < HCI_TUNING_POINTS; ++k)
         theta_m_rad[k] = 2.0 * HCI_PI * turns * (double)k / (HCI_TUNING_POINTS - 1);
     const hci_status status = hci_predict(&t->corrected, &t->found.list, &run, t->open_Nm, note);
@@ -328,12 +326,11 @@ static void leave_bound_out(hci_expected_ripple *e)
 }
 
 /* What was found stays, and no currents with it. */
-static hci_status note_out_of_reach(cli_tuning *t, hci_note *note)
+static void note_out_of_reach(cli_tuning *t, hci_note *note)
 {
     snprintf(t->out_of_reach, sizeof t->out_of_reach, "%s", note->text);
     *note = (hci_note){{0}};
     t->tuning.solved = HCI_OK;
-    return HCI_OK;
 }
 
 hci_status cli_tune_solve(cli_tuning *t, hci_note *note)
@@ -347,7 +344,6 @@ hci_status cli_tune_solve(cli_tuning *t, hci_note *note)
     if (!(t->mean_Nm > 0.0) && !t->arguments->given[TUNE_TORQUE]) return HCI_OK;
     cli_tune_line c = {{"solve", machine, "--target", target, "--report", "-o", folder}, 7};
     hci_status status = read_corrected(t, machine, note);
-    if (!status) status = open_torque(t, note);
     if (status) return status;
     hci_solve_options options = {.target = &t->target,
                                  .effects = &t->found.list,
@@ -361,8 +357,11 @@ hci_status cli_tune_solve(cli_tuning *t, hci_note *note)
     t->tuning.solved = hci_solve(&t->corrected, &options, &t->solution, note);
     cli_progress_end();
     if (cli_tune_is_coarse(t)) leave_bound_out(&t->solution.expected);
-    if (t->tuning.solved == HCI_ERROR_NUMERIC && t->keeps_angle) return note_out_of_reach(t, note);
-    if (t->tuning.solved > HCI_NOT_REACHED) return t->tuning.solved;
+    const bool is_out_of_reach = t->tuning.solved == HCI_ERROR_NUMERIC && t->keeps_angle;
+    if (t->tuning.solved > HCI_NOT_REACHED && !is_out_of_reach) return t->tuning.solved;
+    if (is_out_of_reach) note_out_of_reach(t, note);
+    status = open_torque(t, note);
+    if (status || is_out_of_reach) return status;
     t->is_solved = true;
     t->tuning.solution = &t->solution;
     return hci_solution_write_with_report(&t->corrected, &t->solution, t->tuning.solved,

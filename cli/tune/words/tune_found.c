@@ -614,7 +614,7 @@ static bool begins(const char *text, const char *with)
 static void say_sentence(cli_tuning *t, const char *text)
 {
     static const char *const FOUND[] = {"The model lacked ", "On the runs that were ", "No run was held out",
-                                        "The torque of ", "Nothing is missing"};
+                                        "The torque of ",    "Nothing is missing",     "Decisive by "};
     static const char PARTLY[] = "Partly explained: t", ELSE[] = "; what else it lacks";
     bool found = !t->diagnosed && !begins(text, "Whether ");
     for (size_t k = 0; k < sizeof FOUND / sizeof *FOUND; ++k)
@@ -651,6 +651,19 @@ static void say_words(cli_tuning *t)
     }
 }
 
+/* Without how much each run would tell, "(χ² 1.4e+03)", which is for measure_next.csv. */
+static void say_advice(cli_tuning *t, const char *advice)
+{
+    static const char MEASURE[] = " (χ² ";
+    char text[sizeof t->diagnosis.advice] = "";
+    for (const char *at; (at = strstr(advice, MEASURE)) != NULL; advice = at + strcspn(at, ")") + 1) {
+        if (!strchr(at, ')')) break;
+        snprintf(text + strlen(text), sizeof text - strlen(text), "%.*s", (int)(at - advice), advice);
+    }
+    snprintf(text + strlen(text), sizeof text - strlen(text), "%s", advice);
+    if (text[0]) hci_tuning_say(&t->tuning, HCI_TUNING_NEXT, "%s", text);
+}
+
 void cli_tune_say_diagnosis(cli_tuning *t)
 {
     const hci_diagnosis *d = &t->diagnosis;
@@ -662,5 +675,5 @@ void cli_tune_say_diagnosis(cli_tuning *t)
     say_zero_or_saliency(t);
     for (size_t k = 0; k < d->findings; ++k)
         say_turned(t, &d->finding[k]);
-    if (d->advice[0]) hci_tuning_say(&t->tuning, HCI_TUNING_NEXT, "%s", d->advice);
+    say_advice(t, d->advice);
 }

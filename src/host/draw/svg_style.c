@@ -29,6 +29,7 @@ const char hci_svg_style[] =
     ".hci .plus{fill:#0072b2}.hci .within{fill:none;stroke:#0072b2;stroke-width:1.2}.hci "
     ".minus{fill:#fff;stroke:#c04a00;stroke-width:1.2}.hci .band{fill:#eceef1}"
     ".hci .haze{stroke:#e1e4e8;stroke-width:1.6}.hci .edge{stroke:#767c86;stroke-width:.8}"
+    ".hci .expected{fill:#0072b2;fill-opacity:.18;stroke:#0072b2;stroke-width:.6}"
     ".hci .limit{stroke:#c04a00;stroke-width:1.4;stroke-dasharray:5 3}"
     ".hci .heat0{fill:#440154}.hci .heat1{fill:#482878}"
     ".hci .heat2{fill:#3e4a89}.hci .heat3{fill:#31688e}"
@@ -49,4 +50,5 @@ const char hci_svg_style[] =
     ".hci circle.hollow{fill:#16191d;stroke:#56b4e9}.hci .rail{stroke:#4a515a}"
     ".hci .plus{fill:#56b4e9}.hci .within{stroke:#56b4e9}.hci .minus{fill:#16191d;stroke:#ff8c50}.hci "
     ".band{fill:#262b32}"
-    ".hci .haze{stroke:#2b3037}.hci .edge{stroke:#858c96}.hci .limit{stroke:#ff8c50}}";
+    ".hci .expected{fill:#56b4e9;stroke:#56b4e9}.hci .haze{stroke:#2b3037}.hci .edge{stroke:#858c96}.hci "
+    ".limit{stroke:#ff8c50}}";

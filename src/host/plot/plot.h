@@ -26,6 +26,10 @@ void hci_plot_solution_dq(hci_output *out, const hci_svg_box *box, const void *s
 
 enum { HCI_PLOT_LINE_SIZE = 512 };
 
+/* Height of the band about the curve after in which 19 of 20 machines that the recordings allow have their
+ * torque, its mean apart, in N·m, as it is said; 0: not known. */
+double hci_plot_expected_Nm(const hci_solution *solution);
+
 /* The words of the picture, and the extremes of its curves. */
 typedef struct {
     char verdict[HCI_PLOT_LINE_SIZE], facts[HCI_PLOT_LINE_SIZE], baseline[HCI_PLOT_LINE_SIZE];
@@ -66,14 +70,18 @@ typedef struct {
 
 void hci_plot_log_ranges(const hci_run *log, hci_plot_log_facts *facts);
 
-/* Torque without current over a turn, its ends included. open: an hci_plot_open. */
+/* Torque, torque without current, and i_d and i_q, in this order from above: the same angle is at the same
+ * place. tuned: an hci_plot_tuned, for hci_plot_tuned_open with torques. */
 typedef struct {
-    const double *torque_Nm;
-    size_t count;
-    bool is_mechanical; /* the turn */
-} hci_plot_open;
+    const hci_solution *solution;
+    const double
+        *open_Nm; /* without current over the period of the solution, its ends included; NULL: none */
+    size_t count; /* of them */
+} hci_plot_tuned;
 
-void hci_plot_open_torque(hci_output *out, const hci_svg_box *box, const void *open);
+void hci_plot_tuned_torque(hci_output *out, const hci_svg_box *box, const void *tuned);
+void hci_plot_tuned_open(hci_output *out, const hci_svg_box *box, const void *tuned);
+void hci_plot_tuned_dq(hci_output *out, const hci_svg_box *box, const void *tuned);
 
 /* ---- plot_speeds.c ---- */
 

@@ -5,17 +5,6 @@
 
 #include "host/plot/solution_curves.h"
 
-static hci_range range_of(const hci_solution_curves *c, size_t first, size_t last)
-{
-    hci_range r = HCI_RANGE_EMPTY;
-    for (size_t j = first; j <= last; ++j) {
-        const hci_range one = hci_curve_range(c->value[j]);
-        hci_range_include(&r, one.low);
-        hci_range_include(&r, one.high);
-    }
-    return r;
-}
-
 static void draw_curve(hci_output *out, const char *style, const double *value, const hci_svg_axis *x,
                        const hci_svg_axis *y)
 {
@@ -36,6 +25,7 @@ enum { STRIPS = 60 };
 typedef struct {
     const char *name;
     const double *value;
+    double expected; /* how far from it the machine may be; 0: nothing is said */
 } told;
 
 /* Strips over the angle that tell the values of some curves there. */
@@ -53,6 +43,8 @@ static void draw_strips(hci_output *out, const hci_solution_curves *c, const hci
             hci_svg_tell_more(out, j > 0 ? ", " : ": ");
             hci_svg_tell_more(out, curve[j].name);
             hci_svg_tell_value(out, " ", curve[j].value[vertex], unit);
+            if (curve[j].expected > 0.0)
+                hci_svg_tell_value(out, ", on the machine (95 %) ± ", curve[j].expected, unit);
         }
         hci_svg_strip(out, &strip);
     }
@@ -71,26 +63,65 @@ void hci_panel_angle(hci_output *out, const hci_solution_curves *c, const hci_sv
     hci_svg_label(out, "quiet middle", 0.5 * (b->left + b->right), b->bottom + 35.0, text);
 }
 
+/* Upwards of the curve after to its end, and back below it. */
+static void draw_expected(hci_output *out, const hci_solution_curves *c, double half_Nm,
+                          const hci_svg_axis *x, const hci_svg_axis *y)
+{
+    const double *value = c->value[HCI_CURVE_AFTER], width = x->to - x->from;
+    if (!(half_Nm > 0.0)) return;
+    hci_svg_line_begin(out, "expected");
+    for (size_t k = 0; k <= HCI_CURVE_VERTICES; ++k)
+        hci_svg_line_point(out, x->from + width * (double)k / HCI_CURVE_VERTICES,
+                           hci_svg_at(y, value[k] + half_Nm));
+    for (size_t k = HCI_CURVE_VERTICES + 1; k-- > 0;)
+        hci_svg_line_point(out, x->from + width * (double)k / HCI_CURVE_VERTICES,
+                           hci_svg_at(y, value[k] - half_Nm));
+    hci_svg_line_end(out);
+}
+
+#define APART 0.005 /* of the axis: nearer to each other two curves are one */
+
+/* Whether the wanted torque is seen beside the one that is reached. */
+static bool is_wanted_seen(const hci_solution_curves *c, const hci_svg_axis *y)
+{
+    for (size_t k = 0; k <= HCI_CURVE_VERTICES; ++k)
+        if (!(fabs(c->value[HCI_CURVE_AFTER][k] - c->value[HCI_CURVE_WANTED][k]) <=
+              APART * (y->high - y->low)))
+            return true;
+    return false;
+}
+
+/* What is drawn of the torque, without what has no mark. */
+static size_t torque_legend(bool has_wanted, bool has_expected, hci_svg_entry legend[4])
+{
+    size_t n = 0;
+    legend[n++] = (hci_svg_entry){HCI_SVG_LINE, "before", "before"};
+    if (has_wanted) legend[n++] = (hci_svg_entry){HCI_SVG_LINE, "wanted", "wanted"};
+    legend[n++] = (hci_svg_entry){HCI_SVG_LINE, "after", "after"};
+    if (has_expected) legend[n++] = (hci_svg_entry){HCI_SVG_BAR, "expected", "on the machine (95 %)"};
+    return n;
+}
+
 void hci_panel_torque(hci_output *out, const hci_solution_curves *c, const hci_svg_box *box)
 {
-    static const hci_svg_entry LEGEND[] = {{HCI_SVG_LINE, "before", "before"},
-                                           {HCI_SVG_LINE, "wanted", "wanted"},
-                                           {HCI_SVG_LINE, "after", "after"}};
+    hci_svg_entry legend[4];
+    const double half_Nm = 0.5 * hci_plot_expected_Nm(c->solution);
     const hci_svg_axis y =
-        hci_svg_axis_over(range_of(c, HCI_CURVE_BEFORE, HCI_CURVE_AFTER), box->bottom, box->top, 6.0);
-    const hci_svg_box b = hci_svg_box_beside(*box, &y);
+        hci_svg_axis_over(hci_curve_torque_range(c), box->bottom, box->top, HCI_CURVE_TICKS);
+    const hci_svg_box b = hci_curve_box(c, box);
     const hci_svg_axis x = hci_svg_axis_of_angle(c->turns, &b);
-    hci_svg_head(out, &b, "Torque in N·m", LEGEND, 3);
+    const bool has_wanted = is_wanted_seen(c, &y);
+    hci_svg_head(out, &b, "Torque in N·m", legend, torque_legend(has_wanted, half_Nm > 0.0, legend));
     hci_panel_angle(out, c, &x, &b);
     hci_svg_grid(out, &y, &b, true);
     draw_curve(out, "before", c->value[HCI_CURVE_BEFORE], &x, &y);
+    draw_expected(out, c, half_Nm, &x, &y);
     draw_curve(out, "after", c->value[HCI_CURVE_AFTER], &x, &y);
-    draw_curve(out, "wanted", c->value[HCI_CURVE_WANTED], &x,
-               &y); /* dashed, so that what lies under it is seen */
+    if (has_wanted) draw_curve(out, "wanted", c->value[HCI_CURVE_WANTED], &x, &y); /* dashed: seen through */
     draw_strips(out, c, &b, "N·m",
-                (const told[]){{"before", c->value[HCI_CURVE_BEFORE]},
-                               {"wanted", c->value[HCI_CURVE_WANTED]},
-                               {"after", c->value[HCI_CURVE_AFTER]}},
+                (const told[]){{"before", c->value[HCI_CURVE_BEFORE], 0.0},
+                               {"wanted", c->value[HCI_CURVE_WANTED], 0.0},
+                               {"after", c->value[HCI_CURVE_AFTER], half_Nm}},
                 3);
 }
 
@@ -131,12 +162,12 @@ void hci_panel_currents(hci_output *out, const hci_solution_curves *c, const hci
     told curve[4];
     const size_t count = phases_of(c, phase);
     const hci_svg_axis y =
-        hci_svg_axis_over(range_of(c, HCI_CURVE_PHASE_A, HCI_CURVE_PLAIN_A), box->bottom, box->top, 6.0);
-    const hci_svg_box b = hci_svg_box_beside(*box, &y);
+        hci_svg_axis_over(hci_curve_current_range(c), box->bottom, box->top, HCI_CURVE_TICKS);
+    const hci_svg_box b = hci_curve_box(c, box);
     const hci_svg_axis x = hci_svg_axis_of_angle(c->turns, &b);
     for (size_t k = 0; k < count; ++k) {
         legend[k] = phase[k].entry;
-        curve[k] = (told){phase[k].entry.text, c->value[phase[k].curve]};
+        curve[k] = (told){phase[k].entry.text, c->value[phase[k].curve], 0.0};
     }
     hci_svg_head(out, &b, "Phase currents in A", legend, count);
     hci_panel_angle(out, c, &x, &b);

@@ -28,7 +28,7 @@ static void draw_plain(hci_output *out, const panel *p, hci_dq plain)
     hci_svg_segment(out, "before", p->box.left, q, p->box.right, q);
 }
 
-static void draw_strips(hci_output *out, const panel *p)
+static void draw_strips(hci_output *out, const panel *p, hci_dq plain)
 {
     const double width = (p->box.right - p->box.left) / STRIPS;
     for (size_t k = 0; k < STRIPS; ++k) {
@@ -38,6 +38,7 @@ static void draw_strips(hci_output *out, const panel *p)
         hci_svg_tell_value(out, "", 360.0 * p->curves->turns * (double)(2 * k + 1) / (2 * STRIPS), "°");
         hci_svg_tell_value(out, ": i_d ", i.d, "A");
         hci_svg_tell_value(out, ", i_q ", i.q, "A");
+        hci_svg_tell_value(out, "; before: i_q ", plain.q, "A");
         hci_svg_strip(out, &(hci_svg_box){left, p->box.top, left + width, p->box.bottom});
     }
 }
@@ -48,14 +49,8 @@ void hci_panel_dq(hci_output *out, const hci_solution_curves *c, const hci_svg_b
                                            {HCI_SVG_LINE, "b", "i_d after"},
                                            {HCI_SVG_LINE, "a", "i_q after"}};
     const hci_dq plain = hci_curve_vector(&c->solution->plain, 1, 0.0);
-    hci_plot_facts f;
-    hci_curve_vector_ranges(c, &f);
-    hci_range all = f.d_A;
-    hci_range_include(&all, f.q_A.low);
-    hci_range_include(&all, f.q_A.high);
-    hci_range_include(&all, plain.q);
-    panel p = {.curves = c, .y = hci_svg_axis_over(all, box->bottom, box->top, 6.0)};
-    p.box = hci_svg_box_beside(*box, &p.y);
+    panel p = {.curves = c, .box = hci_curve_box(c, box)};
+    p.y = hci_svg_axis_over(hci_curve_dq_range(c), box->bottom, box->top, HCI_CURVE_TICKS);
     p.x = hci_svg_axis_of_angle(c->turns, &p.box);
     hci_svg_head(out, &p.box, "Current in the rotor frame, A", LEGEND, 3);
     hci_panel_angle(out, c, &p.x, &p.box);
@@ -63,5 +58,5 @@ void hci_panel_dq(hci_output *out, const hci_solution_curves *c, const hci_svg_b
     draw_plain(out, &p, plain);
     draw_component(out, &p, "b", false);
     draw_component(out, &p, "a", true);
-    draw_strips(out, &p);
+    draw_strips(out, &p, plain);
 }

@@ -1,10 +1,12 @@
-/* A log as it was read, over the time; and the torque of a machine without current, over the angle. */
+/* A log as it was read, over the time; and over the angle what was tuned: torque with and without current,
+ * and the currents. */
 #include <math.h>
 #include <stdio.h>
 
 #include "hci/host/base/unit.h"
 #include "hci/math/harmonic.h"
 #include "host/plot/plot.h"
+#include "host/plot/solution_curves.h"
 #include "host/recording/rotor_frame.h"
 
 enum { COLUMNS = 480, STRIPS = 60 };
@@ -145,44 +147,71 @@ bool hci_plot_log_can(const hci_run *run)
     return run->count > 1 && run->i_A && (run->theta_m_rad || run->speed_rad_per_s);
 }
 
-/* ---- torque without current ---- */
+/* ---- what was tuned, over one angle ---- */
 
-static hci_range range_of(const hci_plot_open *o)
+static hci_range range_of_open(const hci_plot_tuned *t)
 {
     hci_range r = HCI_RANGE_EMPTY;
-    for (size_t k = 0; k < o->count; ++k)
-        hci_range_include(&r, o->torque_Nm[k]);
+    for (size_t k = 0; k < t->count; ++k)
+        hci_range_include(&r, t->open_Nm[k]);
     return r;
 }
 
-static double angle_of(const hci_plot_open *o, size_t k)
+static void fill_curves(hci_solution_curves *c, const hci_plot_tuned *t)
 {
-    return 360.0 * (double)k / (double)(o->count - 1);
+    hci_solution_curves_fill(c, t->solution);
+    c->beside = range_of_open(t);
 }
 
-void hci_plot_open_torque(hci_output *out, const hci_svg_box *area, const void *open)
+void hci_plot_tuned_torque(hci_output *out, const hci_svg_box *area, const void *tuned)
 {
-    const hci_plot_open *o = open;
-    const hci_svg_axis y = hci_svg_axis_over(range_of(o), area->bottom, area->top, 6.0);
-    const hci_svg_box b = hci_svg_box_beside(*area, &y);
-    const hci_svg_axis x = hci_svg_axis_of_angle(1.0, &b);
-    const double width = (b.right - b.left) / STRIPS;
-    hci_svg_head(out, &b, "Torque in N·m", NULL, 0);
-    hci_svg_grid(out, &x, &b, false);
-    hci_svg_grid(out, &y, &b, true);
-    hci_svg_line_begin(out, "after");
-    for (size_t k = 0; k < o->count; ++k)
-        hci_svg_line_point(out, hci_svg_at(&x, angle_of(o, k)), hci_svg_at(&y, o->torque_Nm[k]));
-    hci_svg_line_end(out);
+    hci_solution_curves c;
+    fill_curves(&c, tuned);
+    hci_panel_torque(out, &c, area);
+}
+
+void hci_plot_tuned_dq(hci_output *out, const hci_svg_box *area, const void *tuned)
+{
+    hci_solution_curves c;
+    fill_curves(&c, tuned);
+    hci_panel_dq(out, &c, area);
+}
+
+/* The angle of a point of the torque without current. */
+static double angle_of(const hci_plot_tuned *t, size_t k)
+{
+    return 360.0 * (double)t->solution->period_turns * (double)k / (double)(t->count - 1);
+}
+
+static void tell_open(hci_output *out, const hci_plot_tuned *t, const hci_svg_axis *x, const hci_svg_box *b)
+{
+    const double width = (b->right - b->left) / STRIPS;
     for (size_t k = 0; k < STRIPS; ++k) {
-        const size_t at = (2 * k + 1) * (o->count - 1) / (2 * STRIPS);
-        const hci_svg_box strip = {b.left + width * (double)k, b.top, b.left + width * (double)(k + 1),
-                                   b.bottom};
+        const double share = (2.0 * (double)k + 1.0) / (2 * STRIPS), end = angle_of(t, t->count - 1);
+        const size_t at = (size_t)(share * x->high / end * (double)(t->count - 1));
         hci_svg_tell(out, "");
-        hci_svg_tell_value(out, "", angle_of(o, at), "°");
-        hci_svg_tell_value(out, ": ", o->torque_Nm[at], "N·m");
-        hci_svg_strip(out, &strip);
+        hci_svg_tell_value(out, "", angle_of(t, at), "°");
+        hci_svg_tell_value(out, ": without current ", t->open_Nm[at], "N·m");
+        hci_svg_strip(out, &(hci_svg_box){b->left + width * (double)k, b->top,
+                                          b->left + width * (double)(k + 1), b->bottom});
     }
-    hci_svg_label(out, "quiet middle", 0.5 * (b.left + b.right), b.bottom + 35.0,
-                  o->is_mechanical ? "mechanical angle in degrees" : "electrical angle in degrees");
+}
+
+void hci_plot_tuned_open(hci_output *out, const hci_svg_box *area, const void *tuned)
+{
+    static const hci_svg_entry ENTRY[] = {{HCI_SVG_LINE, "plain", "without current"}};
+    const hci_plot_tuned *t = tuned;
+    hci_solution_curves c;
+    fill_curves(&c, t);
+    const hci_svg_axis y = hci_svg_axis_over(c.beside, area->bottom, area->top, HCI_CURVE_TICKS);
+    const hci_svg_box b = hci_curve_box(&c, area);
+    const hci_svg_axis x = hci_svg_axis_of_angle(c.turns, &b);
+    hci_svg_head(out, &b, "Torque in N·m", ENTRY, 1);
+    hci_panel_angle(out, &c, &x, &b);
+    hci_svg_grid(out, &y, &b, true);
+    hci_svg_line_begin(out, "plain");
+    for (size_t k = 0; k < t->count && angle_of(t, k) <= x.high; ++k)
+        hci_svg_line_point(out, hci_svg_at(&x, angle_of(t, k)), hci_svg_at(&y, t->open_Nm[k]));
+    hci_svg_line_end(out);
+    tell_open(out, t, &x, &b);
 }

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "hci/host/machine/expected_ripple.h"
 #include "hci/machine/frames.h"
 
 enum { MOST_FINE = 64 }; /* samples of a step */
@@ -102,6 +103,7 @@ void hci_solution_curves_fill(hci_solution_curves *c, const hci_solution *s)
     const double most = (double)HCI_CURVE_COLUMNS * MOST_FINE;
     double end[HCI_CURVES];
     c->solution = s;
+    c->beside = HCI_RANGE_EMPTY;
     c->top_order = visible_top_order(s);
     c->turns = fmax(1.0, fmin((double)s->period_turns, floor(most / (8.0 * c->top_order))));
     c->fine = (size_t)fmax(2.0, fmin(MOST_FINE, ceil(8.0 * c->top_order * c->turns / HCI_CURVE_COLUMNS)));
@@ -148,6 +150,70 @@ void hci_curve_vector_ranges(const hci_solution_curves *c, hci_plot_facts *f)
         hci_range_include(&f->d_A, i.d);
         hci_range_include(&f->q_A, i.q);
     }
+}
+
+/* ---- ranges, and the room that their numbers take ---- */
+
+double hci_plot_expected_Nm(const hci_solution *s)
+{
+    const double bound_Nm = s->expected.error_peak_to_peak_Nm;
+    if (s->expected.state != HCI_RIPPLE_KNOWN || hci_solution_is_boundless(s) || !(bound_Nm > 0.0))
+        return 0.0;
+    return hci_ripple_bound_as_said(bound_Nm);
+}
+
+static hci_range range_of(const hci_solution_curves *c, size_t first, size_t last)
+{
+    hci_range r = HCI_RANGE_EMPTY;
+    for (size_t j = first; j <= last; ++j) {
+        const hci_range one = hci_curve_range(c->value[j]);
+        hci_range_include(&r, one.low);
+        hci_range_include(&r, one.high);
+    }
+    return r;
+}
+
+hci_range hci_curve_torque_range(const hci_solution_curves *c)
+{
+    const double half_Nm = 0.5 * hci_plot_expected_Nm(c->solution);
+    const hci_range after = hci_curve_range(c->value[HCI_CURVE_AFTER]);
+    hci_range r = range_of(c, HCI_CURVE_BEFORE, HCI_CURVE_AFTER);
+    hci_range_include(&r, after.low - half_Nm);
+    hci_range_include(&r, after.high + half_Nm);
+    return r;
+}
+
+hci_range hci_curve_current_range(const hci_solution_curves *c)
+{
+    return range_of(c, HCI_CURVE_PHASE_A, HCI_CURVE_PLAIN_A);
+}
+
+hci_range hci_curve_dq_range(const hci_solution_curves *c)
+{
+    hci_plot_facts f;
+    hci_curve_vector_ranges(c, &f);
+    hci_range all = f.d_A;
+    hci_range_include(&all, f.q_A.low);
+    hci_range_include(&all, f.q_A.high);
+    hci_range_include(&all, hci_curve_vector(&c->solution->plain, 1, 0.0).q);
+    return all;
+}
+
+static void make_room(hci_range r, hci_svg_box *b, const hci_svg_box *box)
+{
+    if (r.low > r.high) return;
+    const hci_svg_axis y = hci_svg_axis_over(r, box->bottom, box->top, HCI_CURVE_TICKS);
+    b->left = fmax(b->left, hci_svg_box_beside(*box, &y).left);
+}
+
+hci_svg_box hci_curve_box(const hci_solution_curves *c, const hci_svg_box *box)
+{
+    hci_svg_box b = *box;
+    make_room(hci_curve_torque_range(c), &b, box);
+    make_room(hci_curve_current_range(c), &b, box);
+    make_room(hci_curve_dq_range(c), &b, box);
+    make_room(c->beside, &b, box);
+    return b;
 }
 
 void hci_plot_solution_point(const hci_solution *solution, double theta_rad, hci_plot_point *point)

@@ -28,11 +28,25 @@ typedef struct {
     double top_order; /* highest one that can be seen */
     double turns;     /* electrical turns drawn */
     size_t fine;      /* samples of a step */
+    hci_range beside; /* of what is drawn in a picture below with the same angle; empty: nothing */
     double value[HCI_CURVES][HCI_CURVE_VERTICES + 1];
 } hci_solution_curves;
 
 void hci_solution_curves_fill(hci_solution_curves *curves, const hci_solution *solution);
 hci_range hci_curve_range(const double *value);
+
+/* The box of a picture over the angle, with room at its left for the numbers of any of them, so that the
+ * same angle is at the same place in all. */
+hci_svg_box hci_curve_box(const hci_solution_curves *curves, const hci_svg_box *box);
+
+/* Of all curves of the torque with what is to be expected of the machine; of the phases and the plain sine;
+ * of i_d and i_q, and those of the plain sine. */
+hci_range hci_curve_torque_range(const hci_solution_curves *curves);
+hci_range hci_curve_current_range(const hci_solution_curves *curves);
+hci_range hci_curve_dq_range(const hci_solution_curves *curves);
+
+/* Grid lines of an upright axis at most. */
+#define HCI_CURVE_TICKS 6.0
 
 /* The current vector in dq, at an angle or as sample k of count. */
 hci_dq hci_curve_vector(const hci_wave *waves, size_t count, double theta_rad);

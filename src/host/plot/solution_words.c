@@ -7,6 +7,8 @@
 
 enum { LINE_SIZE = HCI_PLOT_LINE_SIZE };
 
+#define SAME_MEAN 5e-4 /* as a share: less is not seen in four digits */
+
 /* Order 0 comes first where it is there at all. */
 static double mean_torque_Nm(const hci_solution *s)
 {
@@ -80,26 +82,39 @@ static void facts_line(char line[LINE_SIZE], const hci_solution_curves *c)
     snprintf(line + strlen(line), LINE_SIZE - strlen(line), " · copper loss × %s", loss);
 }
 
+/* What the plain sine makes, which with saturation is not the mean that its back-EMF alone would make. */
+static void plain_line(char line[LINE_SIZE], const hci_solution *s, const char *plain)
+{
+    char made[HCI_SVG_NUMBER_SIZE];
+    const bool has_mean = s->order_count > 0 && hci_order_number(&s->order[0]) < HCI_ORDER_TOLERANCE;
+    const double made_Nm = has_mean ? s->order[0].before_Nm.cosine : 0.0,
+                 wanted_Nm = has_mean ? s->order[0].target_Nm.cosine : 0.0;
+    hci_svg_quantity_text(made, made_Nm, "N·m");
+    if (fabs(made_Nm - wanted_Nm) <= SAME_MEAN * fabs(wanted_Nm))
+        snprintf(line, LINE_SIZE, "Before: a plain sine of %s with the wanted mean torque", plain);
+    else
+        snprintf(line, LINE_SIZE,
+                 "Before: a plain sine of %s, of which the back-EMF alone would make the wanted mean torque "
+                 "and the machine makes %s",
+                 plain, made);
+}
+
 static void baseline_line(char line[LINE_SIZE], const hci_solution_curves *c)
 {
     const hci_solution *s = c->solution;
     char plain[HCI_SVG_NUMBER_SIZE], limit[HCI_SVG_NUMBER_SIZE];
     hci_svg_quantity_text(plain, s->plain_amplitude_A, "A");
-    if (!(s->plain_amplitude_A > 0.0))
+    if (!(s->plain_amplitude_A > 0.0)) {
         snprintf(line, LINE_SIZE,
                  "Before: no current, since no mean torque is wanted; what is left is cogging.");
-    else if (s->plain_is_held)
-        snprintf(
-            line, LINE_SIZE,
-            "Before: the held fundamental of %s alone. Copper loss is relative to that of this fundamental",
-            plain);
+        return;
+    }
+    if (s->plain_is_held)
+        snprintf(line, LINE_SIZE, "Before: the held fundamental of %s alone", plain);
     else
-        snprintf(
-            line, LINE_SIZE,
-            "Before: a plain sine of %s with the wanted mean torque. Copper loss is relative to that of this "
-            "sine",
-            plain);
-    if (!(s->plain_amplitude_A > 0.0)) return;
+        plain_line(line, s, plain);
+    snprintf(line + strlen(line), LINE_SIZE - strlen(line), ". Copper loss is relative to that of this %s",
+             s->plain_is_held ? "fundamental" : "sine");
     if (isfinite(s->loss_to_limit) && missed_count(s) == 0) {
         hci_svg_fixed_text(limit, fmin(s->loss_to_limit, 1e6), 3);
         snprintf(line + strlen(line), LINE_SIZE - strlen(line), ", and is %s × the least possible", limit);

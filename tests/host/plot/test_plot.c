@@ -283,6 +283,61 @@ static void test_torque_is_read_back(void)
     check_curve("after", 0, s, after_Nm);
 }
 
+/* Two curves that lie on one another are one line, and the legend has no other. */
+static void test_wanted_where_it_is_seen(void)
+{
+    draw();
+    TEST_ASSERT_NOT_NULL(strstr(picture, "<polyline class=\"wanted\""));
+    for (int k = 1; k < 3; ++k)
+        order[k].torque_Nm = order[k].target_Nm;
+    draw();
+    check_picture();
+    TEST_ASSERT_NULL(strstr(picture, "<polyline class=\"wanted\""));
+    TEST_ASSERT_NOT_NULL(strstr(picture, ", wanted ")); /* under the pointer */
+}
+
+/* A band of the height of the bound about the curve after, with an entry of the legend, and room for it on
+ * the axis; none where the bound is not known, or is above the torque. */
+static void test_expected_of_the_machine(void)
+{
+    solution.expected.peak_to_peak_Nm = solution.expected.error_peak_to_peak_Nm = 1.9031;
+    solution.T_ripple_before_percent = 100.0;
+    draw();
+    check_picture();
+    const scale s = read_scale("quiet end", true, 54.0, 120.0, 380.0);
+    const char *at = find("<polyline class=\"expected\"", 0);
+    double x[2], y[2];
+    TEST_ASSERT_EQUAL_INT(2, sscanf(strstr(at, "points=\"") + 8, "%lf,%lf", &x[0], &y[0]));
+    const char *last = strstr(at, "\"/>");
+    for (--last; last[-1] != ' '; --last) {
+    }
+    TEST_ASSERT_EQUAL_INT(2, sscanf(last, "%lf,%lf", &x[1], &y[1]));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3, x[0], x[1]);
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, 2.0, value_at(s, y[0], true) - value_at(s, y[1], true)); /* rounded up */
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, 2.0 * after_Nm(0.0), value_at(s, y[0], true) + value_at(s, y[1], true));
+    TEST_ASSERT_NOT_NULL(strstr(picture, ">on the machine (95 %)</text>"));
+    TEST_ASSERT_NOT_NULL(strstr(picture, ", on the machine (95 %) ± 1 N·m</title>"));
+    solution.expected.peak_to_peak_Nm = 2.2; /* above the torque and the ripple before */
+    draw();
+    TEST_ASSERT_NULL(strstr(picture, "on the machine"));
+    solution.expected.peak_to_peak_Nm = 1.9;
+    solution.expected.state = HCI_RIPPLE_TOO_FAR;
+    draw();
+    TEST_ASSERT_NULL(strstr(picture, "on the machine"));
+}
+
+/* The plain sine of a machine that saturates makes less than was wanted, and nobody says otherwise. */
+static void test_mean_of_the_plain_sine(void)
+{
+    draw();
+    TEST_ASSERT_NOT_NULL(strstr(picture, "a plain sine of 10 A with the wanted mean torque. Copper loss"));
+    order[0].before_Nm.cosine = 2.063;
+    draw();
+    TEST_ASSERT_NULL(strstr(picture, "with the wanted mean torque"));
+    TEST_ASSERT_NOT_NULL(
+        strstr(picture, "would make the wanted mean torque and the machine makes 2.063 N·m."));
+}
+
 static void test_currents_are_read_back(void)
 {
     draw();
@@ -573,8 +628,15 @@ static void test_quantities_of_a_page(void)
     static const struct {
         double value;
         const char *unit, *text;
-    } CASE[] = {{2.46289, "N·m", "2.463 N·m"}, {0.0048361, "N·m", "0.004836 N·m"}, {5e-5, "N·m", "50 µN·m"},
-                {1e-13, "N·m", "0 N·m"},       {0.0048361, "A", "4.836 mA"},       {1e-12, "%", "0 %"}};
+    } CASE[] = {{2.46289, "N·m", "2.463 N·m"},
+                {0.0048361, "N·m", "0.004836 N·m"},
+                {5e-5, "N·m", "0.00005 N·m"},
+                {5e-6, "N·m", "5 µN·m"},
+                {1e-13, "N·m", "0 N·m"},
+                {0.0048361, "A", "0.004836 A"},
+                {25.0, "V", "25 V"},
+                {0.0048361, "W", "4.836 mW"},
+                {1e-12, "%", "0 %"}};
     for (size_t k = 0; k < sizeof CASE / sizeof *CASE; ++k) {
         char text[HCI_HTML_NUMBER_SIZE];
         hci_html_quantity_text(text, CASE[k].value, CASE[k].unit);
@@ -765,6 +827,9 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_torque_is_read_back);
+    RUN_TEST(test_wanted_where_it_is_seen);
+    RUN_TEST(test_expected_of_the_machine);
+    RUN_TEST(test_mean_of_the_plain_sine);
     RUN_TEST(test_currents_are_read_back);
     RUN_TEST(test_vector_is_read_back);
     RUN_TEST(test_spectrum_is_read_back);

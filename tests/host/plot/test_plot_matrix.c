@@ -200,7 +200,7 @@ static void test_map(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.02, fmax(0.9 * high * (1.0 + log10(0.0005) / 4.0), 2.6),
                               side_at("within", left + 1.5 * width, y + high));
     TEST_ASSERT_NOT_NULL(
-        strstr(picture, "<title>a.csv, order 6: before 1 N·m, after 10 mN·m, noise 1 mN·m</title>"));
+        strstr(picture, "<title>a.csv, order 6: before 1 N·m, after 0.01 N·m, noise 0.001 N·m</title>"));
     TEST_ASSERT_EQUAL_UINT64(2 + 1, text_count("<rect class=\"before\"", picture));
     TEST_ASSERT_NOT_NULL(strstr(picture, ">c.csv</text>"));
     TEST_ASSERT_NULL(strstr(picture, "b&#60;.csv"));

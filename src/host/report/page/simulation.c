@@ -9,48 +9,26 @@
 /* A ripple below this is rounding. */
 #define ROUNDING_PERCENT 1e-9
 
-/* The main results, at the top of the page. */
-static void say_facts(hci_output *out, const hci_simulation *s)
-{
-    char mean[HCI_HTML_NUMBER_SIZE], speed[HCI_HTML_NUMBER_SIZE], swing[HCI_HTML_NUMBER_SIZE],
-        loss[128] = "", before[HCI_HTML_NUMBER_SIZE + 80] = "";
-    hci_html_quantity_text(mean, s->torque_Nm.mean, "N·m");
-    hci_html_quantity_text(swing, s->torque_Nm.most - s->torque_Nm.least, "N·m");
-    hci_html_number_text(speed, s->speed_rad_per_s.mean * 30.0 / HCI_PI);
-    if (isfinite(s->loss_to_plain)) {
-        char ratio[HCI_HTML_NUMBER_SIZE];
-        hci_html_number_text(ratio, s->loss_to_plain);
-        snprintf(loss, sizeof loss,
-                 " Its copper loss is %s times that of a plain sine with the same mean torque.", ratio);
-    }
-    if (hci_page_has_before(s)) {
-        char plain[HCI_HTML_NUMBER_SIZE];
-        hci_html_quantity_text(plain, s->plain.peak_to_peak_Nm, "N·m");
-        snprintf(before, sizeof before, ", with a plain sine of the same mean torque by %s", plain);
-    }
-    hci_html_say(out, "lead",
-                 "The drive makes %s on average at %s rpm; its torque varies by %s%s from peak to peak%s.%s",
-                 mean, speed, swing[0] == '<' ? "less than" : "", swing + (swing[0] == '<'), before, loss);
-}
-
 static void say_verdict(hci_output *out, const hci_simulation *s, const char *machine)
 {
     const char *badge = !s->energy_balances ? "Not to be trusted: the energy does not balance"
                         : s->remark.text[0] ? "Done, with a remark"
                                             : "Done";
-    char heading[256], kicker[512], mean[HCI_HTML_NUMBER_SIZE], ripple[HCI_HTML_NUMBER_SIZE];
+    char heading[256], kicker[512], mean[HCI_HTML_NUMBER_SIZE], ripple[HCI_HTML_NUMBER_SIZE],
+        speed[HCI_HTML_NUMBER_SIZE];
     hci_html_quantity_text(mean, s->torque_Nm.mean, "N·m");
     hci_html_number_text(ripple, s->T_ripple_percent);
+    hci_html_number_text(speed, s->speed_rad_per_s.mean * 30.0 / HCI_PI);
     if (s->T_ripple_percent < ROUNDING_PERCENT)
-        snprintf(heading, sizeof heading, "The drive makes %s without ripple", mean);
+        snprintf(heading, sizeof heading, "The drive makes %s at %s rpm without ripple", mean, speed);
     else if (isfinite(s->T_ripple_percent))
-        snprintf(heading, sizeof heading, "The drive makes %s with %s %% of ripple", mean, ripple);
+        snprintf(heading, sizeof heading, "The drive makes %s at %s rpm with %s %% of ripple", mean, speed,
+                 ripple);
     else
-        snprintf(heading, sizeof heading, "The drive makes %s on average", mean);
+        snprintf(heading, sizeof heading, "The drive makes %s on average at %s rpm", mean, speed);
     snprintf(kicker, sizeof kicker, "Simulation of a drive · %s", machine ? machine : "");
     hci_html_begin(out, &(hci_html_opening){kicker, badge, heading, s->energy_balances});
-    say_facts(out, s);
-    if (s->remark.text[0]) hci_html_paragraph(out, NULL, s->remark.text);
+    if (s->remark.text[0]) hci_html_say(out, NULL, "Remark: %s.", s->remark.text);
 }
 
 static void say_window(hci_output *out, const hci_simulation *s)

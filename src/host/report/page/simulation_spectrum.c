@@ -82,12 +82,11 @@ static void set_floor(hci_plot_order *order, size_t count, double least_Nm)
 /* What the orders are compared with, whether they are wanted, and what the floor is. */
 static void caption_of(char text[CAPTION_SIZE], const hci_simulation *s, double floor_Nm)
 {
-    char baseline[HCI_PAGE_BASELINE_SIZE], floor[HCI_HTML_NUMBER_SIZE];
+    char floor[HCI_HTML_NUMBER_SIZE];
     const bool has_floor = isfinite(floor_Nm);
-    hci_page_say_baseline(baseline, s);
     hci_html_quantity_text(floor, floor_Nm, "N·m");
     snprintf(text, CAPTION_SIZE,
-             "%sOver whole periods of the angle; the picture leaves the mean out%s. %s%s%s%s", baseline,
+             "Over whole periods of the angle; the picture leaves the mean out%s. %s%s%s%s",
              hci_page_has_before(s) ? ", and what is more than four decades below the largest" : "",
              s->imposed ? "The currents are imposed, and some of these orders may be wanted: the target that "
                           "they were made for is not part of a simulation."

@@ -79,7 +79,7 @@ static void show_course(hci_output *out, const hci_simulation *s, const hci_trac
                                       .title = "Torque and speed over time",
                                       .description =
                                           "Two lines over time in ms: torque in N·m, speed in rpm.",
-                                      .caption = TRUE_VALUES,
+                                      .caption = "Torque and speed as they are over the same time.",
                                       .wide = 380,
                                       .narrow = 400,
                                       .draw = hci_plot_traces_of_two,

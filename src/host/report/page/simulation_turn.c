@@ -87,16 +87,22 @@ static void show_torque(hci_output *out, const hci_simulation *s, const hci_plot
     hci_html_section_end(out);
 }
 
-static void table_of_currents(hci_output *out, const hci_turn_means *t, double plain_q_A)
+static void range_of_currents(const hci_turn_means *t, hci_range *d, hci_range *q)
 {
-    static const char *const COLUMN[] = {"<Current", "Least A", "Most A", NULL};
-    hci_range d = HCI_RANGE_EMPTY, q = HCI_RANGE_EMPTY;
+    *d = *q = HCI_RANGE_EMPTY;
     for (size_t k = 0; k < HCI_TURN_STEPS; ++k) {
         const hci_turn_mean m = hci_turn_mean_of(t, k, 1);
         if (m.samples == 0) continue;
-        hci_range_include(&d, m.current_A.d);
-        hci_range_include(&q, m.current_A.q);
+        hci_range_include(d, m.current_A.d);
+        hci_range_include(q, m.current_A.q);
     }
+}
+
+static void table_of_currents(hci_output *out, const hci_turn_means *t, double plain_q_A)
+{
+    static const char *const COLUMN[] = {"<Current", "Least A", "Most A", NULL};
+    hci_range d, q;
+    range_of_currents(t, &d, &q);
     const struct {
         const char *name;
         hci_range range;
@@ -114,6 +120,7 @@ static void table_of_currents(hci_output *out, const hci_turn_means *t, double p
 
 static void show_currents(hci_output *out, const hci_plot_turn *turn, const char *origin)
 {
+    char heading[256];
     const hci_html_drawing drawing = {
         .id = "vector",
         .title = "Mean i_d and i_q over one electrical turn",
@@ -126,7 +133,16 @@ static void show_currents(hci_output *out, const hci_plot_turn *turn, const char
         .narrow = 270,
         .draw = hci_plot_turn_dq,
         .context = turn};
-    hci_html_section(out, "What the current loop makes of the currents in the rotor frame");
+    char number[4][HCI_HTML_NUMBER_SIZE];
+    hci_range d, q;
+    range_of_currents(turn->turn, &d, &q);
+    const double value[] = {q.low, q.high, d.low, d.high};
+    for (size_t k = 0; k < 4; ++k)
+        hci_html_number_text(number[k], value[k]);
+    snprintf(heading, sizeof heading,
+             "On average over the turns i_q goes from %s to %s A and i_d from %s to %s A", number[0],
+             number[1], number[2], number[3]);
+    hci_html_section(out, heading);
     hci_html_drawing_begin(out, &drawing);
     table_of_currents(out, turn->turn, turn->plain_q_A);
     hci_html_drawing_end(out, "trajectory.csv with the course", origin);

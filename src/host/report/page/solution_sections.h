@@ -13,7 +13,6 @@ typedef struct {
     hci_output *out;
     const hci_solution *solution;
     hci_plot_facts facts;
-    bool is_cut;            /* to a table, which leaves more than these currents */
     bool ripple_is_unknown; /* the model has none, and that is not what was measured */
     char origin[HCI_PAGE_ORIGIN_SIZE];
 } hci_solution_page;
@@ -23,8 +22,9 @@ typedef struct {
 /* Verdict, and before and after in large figures. verdict: what hci_solve returned. */
 void hci_page_solution_verdict(const hci_solution_page *page, hci_status verdict, const char *machine);
 
-/* The table of before and after, and what to expect of the real machine. */
+/* The table of before and after; in words what to expect of the real machine. */
 void hci_page_before_and_after(const hci_solution_page *page);
+void hci_page_expectation(const hci_solution_page *page);
 
 /* "3.8 N·m"; "less than 2 µN·m" where it is below the tolerance of the orders. */
 enum { HCI_PAGE_SWING_SIZE = HCI_HTML_NUMBER_SIZE + 16 };
@@ -37,6 +37,9 @@ void hci_page_ratio(char text[HCI_HTML_NUMBER_SIZE], double ratio);
 bool hci_page_has_plain(const hci_solution *solution);
 
 /* ---- the sections ---- */
+
+/* What is drawn of the torque, and of that to expect on the machine. */
+void hci_page_torque_caption(const hci_solution *solution, char text[256]);
 
 /* Torque over the angle, and by order. */
 void hci_page_torque(const hci_solution_page *page);

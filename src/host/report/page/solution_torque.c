@@ -30,14 +30,28 @@ static void table_of_extremes(const hci_solution_page *p)
     hci_html_table_end(p->out);
 }
 
+void hci_page_torque_caption(const hci_solution *s, char text[256])
+{
+    const double bound_Nm = hci_plot_expected_Nm(s);
+    char bound[HCI_HTML_NUMBER_SIZE];
+    hci_html_quantity_text(bound, bound_Nm, "N·m");
+    snprintf(text, 256, "The torque that the model makes of currents that flow exactly.");
+    if (bound_Nm > 0.0)
+        snprintf(text + strlen(text), 256 - strlen(text),
+                 " The band is %s high: from peak to peak 19 of 20 machines that the recordings allow are no "
+                 "further from it.",
+                 bound);
+}
+
 void hci_page_torque(const hci_solution_page *p)
 {
-    char heading[256], before[HCI_PAGE_SWING_SIZE], after[HCI_PAGE_SWING_SIZE];
+    char heading[256], caption[256], before[HCI_PAGE_SWING_SIZE], after[HCI_PAGE_SWING_SIZE];
+    hci_page_torque_caption(p->solution, caption);
     const hci_html_drawing drawing = {
         .id = "torque",
         .title = "Torque over the electrical angle: before, wanted, after",
         .description = "Lines in N·m over the electrical angle in degrees. The table has the extremes.",
-        .caption = "The torque that the model makes of currents that flow exactly.",
+        .caption = caption,
         .wide = 262,
         .narrow = 280,
         .draw = hci_plot_solution_torque,
@@ -46,10 +60,8 @@ void hci_page_torque(const hci_solution_page *p)
     hci_page_swing(after, p->facts.after_Nm, p->solution->tolerance_Nm);
     const bool is_smooth = strncmp(after, "less than", 9) == 0; /* than the tolerance of the model */
     snprintf(heading, sizeof heading,
-             is_smooth && p->is_cut ? "The currents, before they are cut to the table, leave nothing in the "
-                                      "model of a ripple of %.0s%s"
-             : is_smooth            ? "In the model nothing is left of a ripple of %.0s%s"
-                                    : "Over the angle the torque varies by %s, before by %s",
+             is_smooth ? "In the model nothing is left of a ripple of %.0s%s"
+                       : "Over the angle the torque varies by %s, before by %s",
              after, before);
     hci_html_section(p->out, heading);
     hci_html_drawing_begin(p->out, &drawing);

@@ -67,30 +67,6 @@ static void heading_of(const hci_solution_page *p, hci_status verdict, char text
         snprintf(text, 512, "%s, with %s of ripple from peak to peak", mean, swing);
 }
 
-static void say_lead(const hci_solution_page *p)
-{
-    const hci_solution *s = p->solution;
-    char plain[HCI_HTML_NUMBER_SIZE], peak[HCI_HTML_NUMBER_SIZE], ratio[HCI_HTML_NUMBER_SIZE],
-        before[HCI_PAGE_SWING_SIZE], after[HCI_PAGE_SWING_SIZE];
-    hci_html_quantity_text(plain, s->plain_amplitude_A, "A");
-    hci_html_quantity_text(peak, s->peak_phase_current_A, "A");
-    hci_page_ratio(ratio, s->loss_to_plain);
-    hci_page_swing(before, p->facts.before_Nm, s->tolerance_Nm);
-    hci_page_swing(after, p->facts.after_Nm, s->tolerance_Nm);
-    if (hci_page_has_plain(s))
-        hci_html_say(p->out, "lead",
-                     "%s of %s leaves a torque that varies by %s from peak to peak. With these currents it "
-                     "varies by %s%s, for %s times the copper loss and a peak current of %s.",
-                     s->plain_is_held ? "The held fundamental" : "A plain sine", plain, before, after,
-                     is_smooth_wish(p) || s->worst_error_Nm > s->tolerance_Nm ? "" : ", as was asked for",
-                     ratio, peak);
-    else
-        hci_html_say(p->out, "lead",
-                     "Without current the torque varies by %s from peak to peak. With these currents it "
-                     "varies by %s, for a peak current of %s.",
-                     before, after, peak);
-}
-
 void hci_page_ratio(char text[HCI_HTML_NUMBER_SIZE], double ratio)
 {
     snprintf(text, HCI_HTML_NUMBER_SIZE, "%.4g", ratio);
@@ -206,20 +182,37 @@ void hci_page_before_and_after(const hci_solution_page *p)
                                   : s->plain_is_held     ? "Before: held fundamental"
                                                          : "Before: plain sine",
                                   "After: in the model", "After: to expect on the machine", NULL};
-    char expected[1024];
     hci_html_compare(p->out, column);
     row_of_mean(p);
     row_of_ripple(p);
     row_of_currents(p);
     row_of_voltage(p);
     hci_html_compare_end(p->out);
-    hci_expected_ripple_words(&s->expected, expected, sizeof expected);
-    if (hci_solution_is_boundless(p->solution))
+}
+
+/* What a bound is made of is of interest to some; that it is not known, or that a current was never recorded,
+ * is to all. */
+void hci_page_expectation(const hci_solution_page *p)
+{
+    const hci_expected_ripple *e = &p->solution->expected;
+    const bool is_boundless = hci_solution_is_boundless(p->solution);
+    const bool is_plain = e->state == HCI_RIPPLE_KNOWN && !is_boundless && !(e->outside_share > 0.0) &&
+                          !e->speed_outside && !hci_expected_ripple_is_doubtful(e);
+    char expected[1024];
+    hci_expected_ripple_words(e, expected, sizeof expected);
+    if (is_boundless)
         snprintf(expected, sizeof expected,
                  "Ripple not known: the recordings bound it by no less than the torque itself.");
+    if (is_plain) hci_html_fold(p->out, "What the bound on the machine is made of");
     hci_html_say(p->out, "quiet", "On the real machine: %s", expected);
-    hci_loop_reach_words(&s->loop, expected, sizeof expected);
-    if (expected[0]) hci_html_say(p->out, "quiet", "In a drive: %s.", expected);
+    if (is_plain) hci_html_fold_end(p->out);
+}
+
+static void say_loop(const hci_solution_page *p)
+{
+    char reach[1024];
+    hci_loop_reach_words(&p->solution->loop, reach, sizeof reach);
+    if (reach[0]) hci_html_say(p->out, "quiet", "In a drive: %s.", reach);
 }
 
 void hci_page_solution_verdict(const hci_solution_page *p, hci_status verdict, const char *machine)
@@ -234,7 +227,8 @@ void hci_page_solution_verdict(const hci_solution_page *p, hci_status verdict, c
                                        : is_doubtful     ? "Reached in a model that is not to be relied on"
                                                          : "Reached",
                                        heading, verdict == HCI_OK && !is_doubtful});
-    say_lead(p);
     hci_page_before_and_after(p);
-    if (p->solution->remark.text[0]) hci_html_paragraph(p->out, "quiet", p->solution->remark.text);
+    hci_page_expectation(p);
+    say_loop(p);
+    if (p->solution->remark.text[0]) hci_html_say(p->out, "quiet", "Remark: %s.", p->solution->remark.text);
 }

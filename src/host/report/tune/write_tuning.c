@@ -137,7 +137,7 @@ static void put_solution(hci_json *json, const hci_tuning *t)
 char *hci_tuning_json(const hci_tuning *t)
 {
     static const char *const KEYS[] = {"caveats", "read",         "found", "wanted",
-                                       "unknown", "measure_next", "load"};
+                                       "unknown", "measure_next", "load",  "load_else"};
     hci_json json;
     hci_summary_begin(&json, "tune");
     hci_json_bool(&json, "good", t->good);

@@ -478,7 +478,7 @@ static void test_marks_of_findings(void)
     const double own_Nm = sqrt(0.9) * 0.6;
     const char *level = strstr(page, "<title>error before: 0.6 N·m</title>");
     const double before = number_after(level, "d=\"M"),
-                 after = number_after(strstr(page, "<title>error after: 4 mN·m</title>"), "d=\"M");
+                 after = number_after(strstr(page, "<title>error after: 0.004 N·m</title>"), "d=\"M");
     const double dot =
         number_after(strstr(page, "<title>cogging torque: by it alone 0.5692 N·m, added</title>"), "cx=\"");
     TEST_ASSERT_DOUBLE_WITHIN(0.05, (dot - after) / (before - after), log(own_Nm / 0.004) / log(0.6 / 0.004));
@@ -910,7 +910,8 @@ static void test_simulation_with_before(void)
         TEST_ASSERT_EQUAL(HCI_OK, hci_page_simulation(out, &s, &traces, &sources, &note));
         read_page(out);
         check_page(2 * 5);
-        text_has("with a plain sine of the same mean torque by 1.625 N·m", page);
+        text_has("<th scope=\"row\">Torque ripple, peak to peak</th><td>1.625 N·m</td><td>0.5 N·m</td>",
+                 page);
         text_has("<th scope=\"row\">T_ripple, peak to peak to mean</th><td>65 %</td><td>20 %</td>", page);
         text_has("<th scope=\"row\">F_ripple, rms to mean</th><td>21.5 %</td><td>7 %</td>", page);
         text_has("Before: the plain sine of 3.5 A in phase with the back-EMF", page);

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "host/draw/html.h"
 #include "host/plot/plot.h"
 #include "host/report/tune/page_tuning.h"
 #include "support/pictures.h"
@@ -170,30 +171,80 @@ static void test_other_logs(void)
 /* ---- torque without current ---- */
 
 static double open_Nm[HCI_TUNING_POINTS];
+static hci_wave wave[1];
+static hci_set set[1] = {HCI_SET_POS};
+static hci_solved_order order[2];
+static hci_solution solution;
 
-/* 0.3 sin 2θ, to be read at the ends, the crests and between. */
+/* 0.3 sin 2θ, to be read at the ends, the crests and between, with numbers wider than those of the others. */
 static void fill_open(void)
 {
     for (int k = 0; k < HCI_TUNING_POINTS; ++k)
         open_Nm[k] = 0.3 * sin(4.0 * REF_PI * k / (HCI_TUNING_POINTS - 1));
 }
 
+/* The plain sine makes 2.1 N·m with 0.5 N·m at order 6, the currents 0.3 N·m: twice of each from peak to
+ * peak. */
+static void solve(void)
+{
+    memset(order, 0, sizeof order);
+    memset(&solution, 0, sizeof solution);
+    wave[0] = hci_wave_polar(1.0, 1, 10.0, 0.4);
+    order[0].target_Nm = order[0].torque_Nm = order[0].before_Nm = hci_harmonic_polar(0.0, 2.1, REF_PI / 2.0);
+    order[1].before_Nm = hci_harmonic_polar(6.0, 0.5, 0.3);
+    order[1].torque_Nm = hci_harmonic_polar(6.0, 0.3, 0.3);
+    order[1].target_Nm = hci_harmonic_polar(6.0, 0.0, 0.0);
+    solution.current = (hci_currents){wave, set, 1, 0};
+    solution.per_Nm = wave;
+    solution.order = order;
+    solution.order_count = 2;
+    solution.tolerance_Nm = 1e-3;
+    solution.plain = wave[0];
+    solution.plain_amplitude_A = 10.0;
+    solution.loss_to_plain = 1.25;
+    solution.peak_line_voltage_V = NAN;
+    solution.period_turns = 1;
+    solution.expected.state = HCI_RIPPLE_NO_RECORDINGS;
+}
+
 static void test_torque_without_current(void)
 {
-    const hci_plot_open open = {open_Nm, HCI_TUNING_POINTS, true};
+    const hci_plot_tuned tuned = {&solution, open_Nm, HCI_TUNING_POINTS};
     double at[2];
     fill_open();
-    draw(hci_plot_open_torque, &open);
+    solve();
+    draw(hci_plot_tuned_open, &tuned);
     const picture_scale x = picture_scale_of("quiet middle", " x", 0.0),
                         y = picture_scale_of("quiet end", " y", 4.0);
     for (int k = 0; k < HCI_TUNING_POINTS; k += 90) {
-        TEST_ASSERT_TRUE(picture_corner_of("after", 0, k, at));
+        TEST_ASSERT_TRUE(picture_corner_of("plain", 0, k, at));
         TEST_ASSERT_DOUBLE_WITHIN(2.0 * fabs(PIXELS * x.slope), 0.25 * k, picture_value_at(x, at[0]));
         TEST_ASSERT_DOUBLE_WITHIN(2.0 * fabs(PIXELS * y.slope), open_Nm[k], picture_value_at(y, at[1]));
     }
-    text_has("mechanical angle in degrees", picture_text);
-    text_has("<g><title>45°: 0.3 N·m</title>", picture_text); /* the middle of the eighth strip of 6° */
+    text_has("electrical angle in degrees", picture_text);
+    text_has("<title>45°: without current 0.3 N·m</title>", picture_text); /* of the eighth strip of 6° */
     TEST_ASSERT_EQUAL_INT(60, text_count("<rect class=\"hit\"", picture_text));
+}
+
+/* The same angle at the same place, however wide the numbers of each are. */
+static void test_one_angle(void)
+{
+    static void (*const PANEL[])(hci_output *, const hci_svg_box *, const void *) = {
+        hci_plot_tuned_torque, hci_plot_tuned_open, hci_plot_tuned_dq};
+    const hci_plot_tuned tuned = {&solution, open_Nm, HCI_TUNING_POINTS};
+    picture_scale x[3];
+    solve();
+    solution.period_turns = 3;
+    for (int k = 0; k < HCI_TUNING_POINTS; ++k)
+        open_Nm[k] = 1e-7 * sin(12.0 * REF_PI * k / (HCI_TUNING_POINTS - 1)); /* numbers with an exponent */
+    for (int k = 0; k < 3; ++k) {
+        draw(PANEL[k], &tuned);
+        x[k] = picture_scale_of("quiet middle", " x", 0.0);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, x[0].at, x[k].at);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, x[0].low, x[k].low);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, x[0].slope, x[k].slope);
+    }
+    TEST_ASSERT_TRUE(x[0].at > BOX.left + 1.0); /* the widest numbers take more room than there is */
 }
 
 /* ---- the page ---- */
@@ -239,49 +290,95 @@ static void test_page_without_currents(void)
     text_lacks("as it was read", page());
 }
 
-/* The plain sine makes 2.1 N·m with 0.5 N·m at order 6, the currents 0.3 N·m: twice of each from peak to
- * peak. */
-static void test_page_with_currents(void)
+static void test_ripple_that_is_known(void)
 {
-    static const char TABLE[] = "<caption>Extremes over the turn</caption>";
-    hci_wave wave[1] = {hci_wave_polar(1.0, 1, 10.0, 0.4)};
-    hci_set set[1] = {HCI_SET_POS};
-    hci_solved_order order[2];
-    hci_solution solution = {0};
     double before_Nm, after_Nm;
-    memset(order, 0, sizeof order);
-    order[0].target_Nm = order[0].torque_Nm = order[0].before_Nm = hci_harmonic_polar(0.0, 2.1, 0.0);
-    order[1].before_Nm = hci_harmonic_polar(6.0, 0.5, 0.3);
-    order[1].torque_Nm = hci_harmonic_polar(6.0, 0.3, 0.3);
-    order[1].target_Nm = hci_harmonic_polar(6.0, 0.0, 0.0);
-    solution.current = (hci_currents){wave, set, 1, 0};
-    solution.per_Nm = wave;
-    solution.order = order;
-    solution.order_count = 2;
-    solution.tolerance_Nm = 1e-3;
-    solution.plain = wave[0];
-    solution.plain_amplitude_A = 10.0;
-    solution.peak_line_voltage_V = NAN;
-    solution.period_turns = 1;
+    solve();
     hci_tuning_swing(&solution, &before_Nm, &after_Nm);
     TEST_ASSERT_DOUBLE_WITHIN(1e-3, 1.0, before_Nm);
     TEST_ASSERT_DOUBLE_WITHIN(1e-3, 0.6, after_Nm);
     TEST_ASSERT_TRUE(hci_tuning_knows_ripple(&solution));
     solution.tolerance_Nm = 1.1;
     TEST_ASSERT_FALSE(hci_tuning_knows_ripple(&solution));
-    solution.tolerance_Nm = 1e-3;
+}
+
+static void test_page_with_currents(void)
+{
+    static const char OPEN[] = "aria-describedby=\"open-desc\"";
+    char before[HCI_HTML_NUMBER_SIZE], after[HCI_HTML_NUMBER_SIZE], heading[256];
+    double before_Nm, after_Nm;
     fill_open();
+    solve();
     tuning.solution = &solution;
     tuning.open_Nm = open_Nm;
+    tuning.log = &run;
+    tuning.log_name = "bench.csv";
     tuning.good = true;
+    hci_tuning_say(&tuning, HCI_TUNING_FOUND, "a line of what was found");
     const char *text = page();
-    text_has("varies by 0.6 N·m", text);
-    text_has("over the electrical turn</h2>", text);
-    TEST_ASSERT_EQUAL_STRING("without current −0.3 0.3 ", text_row(text, TABLE, 0));
-    tuning.open_is_mechanical = true;
-    text_has("over the mechanical turn</h2>", page());
+    hci_tuning_swing(&solution, &before_Nm, &after_Nm);
+    hci_html_quantity_text(before, before_Nm, "N·m");
+    hci_html_quantity_text(after, after_Nm, "N·m");
+    snprintf(heading, sizeof heading, "<h2>Over the turn a ripple of %s becomes one of %s in the model</h2>",
+             before, after);
+    text_has(heading, text);
+    text_has("<h2>Without current the torque varies by 0.6 N·m</h2>", text);
+    text_has("where a plain sine has ", text);
+    TEST_ASSERT_EQUAL_STRING("without current −0.3 0.3 0.6 ",
+                             text_row(strstr(text, OPEN), "<caption>Extremes over the period</caption>", 0));
+    TEST_ASSERT_EQUAL_INT(3, text_count("<figure>", text));
+    TEST_ASSERT_EQUAL_INT(3, text_count("<figcaption>", text));
+    text_lacks("as it was read", text); /* the log is on another axis */
+    text_has("<details><summary>What was found</summary>", text);
+    TEST_ASSERT_TRUE(strstr(text, "id=\"torque-title\"") < strstr(text, "id=\"open-title\""));
     solution.tolerance_Nm = 0.7; /* the torque without current is below it */
     text_lacks("Without current the torque", page());
+}
+
+/* A sentence stands once: what a current loop makes of it is said above, and of effects that no current takes
+ * away in what was found. */
+static void test_nothing_is_said_twice(void)
+{
+    char reach[512];
+    solve();
+    solution.loop =
+        (hci_loop_reach){.allowed_Nm = 0.1, .added_Nm = NAN, .rpm_per_Hz = 0.15, .lead_rpm_per_Hz = 0.7};
+    hci_loop_reach_words(&solution.loop, reach, sizeof reach);
+    TEST_ASSERT_TRUE(strlen(reach) > 20);
+    hci_tuning_say(&tuning, HCI_TUNING_CAVEATS, "The figures are of currents that flow: %s", reach);
+    hci_note_add(&solution.remark, "effects.csv: not compensated, since it acts on the shaft: friction");
+    tuning.solution = &solution;
+    const char *text = page();
+    TEST_ASSERT_EQUAL_INT(1, text_count(reach, text));
+    text_lacks("not compensated", text);
+}
+
+/* The bound is a band, a figure of the table and one of the numbers, the same in all three. */
+static void test_bound_on_the_machine(void)
+{
+    solve();
+    order[1].torque_Nm = order[1].target_Nm;
+    solution.expected = (hci_expected_ripple){.state = HCI_RIPPLE_KNOWN,
+                                              .peak_to_peak_Nm = 0.0621,
+                                              .error_peak_to_peak_Nm = 0.0621,
+                                              .T_ripple_percent = 2.957,
+                                              .middle_percent = 2.0,
+                                              .mean_Nm = 2.1,
+                                              .mean_error_Nm = 0.00005,
+                                              .worst_order = NAN,
+                                              .worst_order_Nm = NAN,
+                                              .unbelievable_order = NAN};
+    solution.T_ripple_before_percent = 47.6;
+    tuning.solution = &solution;
+    tuning.table_Nm = 0.0123;
+    const char *text = page();
+    text_has("<td>at most 0.063 N·m<small>3 % of the mean (95 %)</small>", text);
+    text_has("<small>at most 0.00005 N·m off (95 %)</small>", text);
+    text_has("The band is 0.063 N·m high", text);
+    text_has("<data value=\"0.0621\">0.0621</data>", text);
+    text_has("becomes one of 0.0123 N·m in the model</h2>", text);
+    TEST_ASSERT_EQUAL_INT(2, text_count("<polyline class=\"expected\"", text)); /* screen and telephone */
+    text_has("<details><summary>What the bound on the machine is made of</summary>", text);
 }
 
 int main(void)
@@ -290,7 +387,11 @@ int main(void)
     RUN_TEST(test_angle_and_torque_over_the_time);
     RUN_TEST(test_other_logs);
     RUN_TEST(test_torque_without_current);
+    RUN_TEST(test_one_angle);
     RUN_TEST(test_page_without_currents);
+    RUN_TEST(test_ripple_that_is_known);
     RUN_TEST(test_page_with_currents);
+    RUN_TEST(test_nothing_is_said_twice);
+    RUN_TEST(test_bound_on_the_machine);
     return UNITY_END();
 }

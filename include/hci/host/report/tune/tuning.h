@@ -19,10 +19,11 @@ typedef enum {
     HCI_TUNING_UNKNOWN, /* what the recordings do not tell */
     HCI_TUNING_NEXT,    /* what to record next */
     HCI_TUNING_LOAD,    /* how the table gets into a drive */
+    HCI_TUNING_ELSE,    /* the same for other drives and other torques */
     HCI_TUNING_PARTS
 } hci_tuning_part;
 
-/* Bytes of a part, and of the commands; points of a turn, its ends included. */
+/* Bytes of a part, and of the commands; points of a period, its ends included. */
 enum { HCI_TUNING_TEXT = 16384, HCI_TUNING_POINTS = 1441 };
 
 /* All of it. Start with {0}; texts are lines, each ended by '\n'. */
@@ -36,8 +37,8 @@ typedef struct {
     double table_Nm;                              /* ripple with the table, in the model; 0: not known */
     const hci_run *log;                           /* the recording that is shown; NULL: none */
     const char *log_name;                         /* as it was given */
-    const double *open_Nm;   /* torque without current over a turn, HCI_TUNING_POINTS; NULL: none */
-    bool open_is_mechanical; /* that turn; else an electrical one */
+    const double *open_Nm; /* torque without current over the period of the solution, HCI_TUNING_POINTS; NULL:
+                            * none */
 } hci_tuning;
 
 /* The heading of a part; a static string. */
