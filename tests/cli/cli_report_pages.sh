@@ -28,6 +28,7 @@ bench() { # FILE i_q SPEED
 for i in 0 1 2 3 4; do bench "$work/r$i.csv" $i $((3 + i % 3)); done
 run 0 tune "$work"/r[0-4].csv --pole-pairs 4 --torque-constant 0.45 --rated-current 5 -q -o "$work/pages/bench"
 check "the bound on the machine is not known" grep -q 'at most [0-9.]* N·m<small>' "$work/pages/bench/report.html"
+check "what to record next has a measure of diagnose" [ "$(grep -c '"measure_next":.*χ²' "$work/pages/bench/summary.json")" -eq 0 ]
 
 pages() { # FOLDER...
     python3 -B tests/cli/report_pages.py "$@" >"$work/found" 2>&1

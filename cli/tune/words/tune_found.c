@@ -1,5 +1,6 @@
 #include "cli/tune/words/tune_found.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -651,17 +652,48 @@ static void say_words(cli_tuning *t)
     }
 }
 
-/* Without how much each run would tell, "(χ² 1.4e+03)", which is for measure_next.csv. */
-static void say_advice(cli_tuning *t, const char *advice)
+static bool is_of_name(char c)
 {
-    static const char MEASURE[] = " (χ² ";
-    char text[sizeof t->diagnosis.advice] = "";
-    for (const char *at; (at = strstr(advice, MEASURE)) != NULL; advice = at + strcspn(at, ")") + 1) {
-        if (!strchr(at, ')')) break;
-        snprintf(text + strlen(text), sizeof text - strlen(text), "%.*s", (int)(at - advice), advice);
+    return isalnum((unsigned char)c) || c == '_';
+}
+
+/* The effect that is named here as in effects.csv; NULL: none. */
+static const char *effect_at(const hci_diagnosis *d, const char *text)
+{
+    for (size_t k = 0; k < d->findings; ++k) {
+        const size_t length = strlen(d->finding[k].effect);
+        if (strncmp(text, d->finding[k].effect, length) == 0 && !is_of_name(text[length]))
+            return d->finding[k].effect;
     }
-    snprintf(text + strlen(text), sizeof text - strlen(text), "%s", advice);
-    if (text[0]) hci_tuning_say(&t->tuning, HCI_TUNING_NEXT, "%s", text);
+    return NULL;
+}
+
+/* Bytes of the advice that people are told otherwise, and how: effects and orders by the names that they use,
+ * "order 7" for "sine_7", and not how much each run would tell, "(χ² 1.4e+03)", which measure_next.csv has.
+ * 0: as they stand. */
+static size_t taken_at(const hci_diagnosis *d, const char *at, bool is_start, const char **words)
+{
+    const char *effect = is_start ? effect_at(d, at) : NULL;
+    *words = effect ? hci_finding_title(effect) : "";
+    if (effect) return strlen(effect);
+    if (begins(at, " (χ² ") && strchr(at, ')')) return strcspn(at, ")") + 1;
+    if (!is_start || (!begins(at, "sine_") && !begins(at, "cosine_"))) return 0;
+    *words = "order ";
+    return strcspn(at, "_") + 1;
+}
+
+static void say_advice(cli_tuning *t)
+{
+    char text[2 * sizeof t->diagnosis.advice] = "";
+    const char *advice = t->diagnosis.advice, *words;
+    for (const char *at = advice; *at;) {
+        const size_t used = strlen(text),
+                     taken = taken_at(&t->diagnosis, at, at == advice || !is_of_name(at[-1]), &words);
+        snprintf(text + used, sizeof text - used, "%.*s", taken > 0 ? (int)strlen(words) : 1,
+                 taken > 0 ? words : at);
+        at += taken > 0 ? taken : 1;
+    }
+    if (text[0]) hci_tuning_say(&t->tuning, HCI_TUNING_NEXT, "%s.", text);
 }
 
 void cli_tune_say_diagnosis(cli_tuning *t)
@@ -675,5 +707,5 @@ void cli_tune_say_diagnosis(cli_tuning *t)
     say_zero_or_saliency(t);
     for (size_t k = 0; k < d->findings; ++k)
         say_turned(t, &d->finding[k]);
-    say_advice(t, d->advice);
+    say_advice(t);
 }

@@ -23,7 +23,7 @@ static void draw_words(hci_output *out, const hci_plot_facts *f)
 void hci_plot_solution_facts(const hci_solution *solution, hci_plot_facts *facts)
 {
     hci_solution_curves c;
-    hci_solution_curves_fill(&c, solution);
+    hci_solution_curves_fill_period(&c, solution);
     hci_solution_curve_words(&c, facts);
 }
 
@@ -33,7 +33,7 @@ void hci_plot_solution(hci_output *out, const hci_solution *solution)
     hci_plot_facts f;
     hci_solution_curves c;
     hci_solution_curves_fill(&c, solution);
-    hci_solution_curve_words(&c, &f);
+    hci_plot_solution_facts(solution, &f);
     snprintf(description, sizeof description,
              "%s. Four panels: torque over the electrical angle, torque ripple by electrical order, phase "
              "currents, and the path of the current vector. %s",

@@ -48,6 +48,45 @@ static double visible_top_order(const hci_solution *s)
     return top;
 }
 
+#define RIPPLE                                                                                               \
+    0.01 /* of the largest order of the ripple: what is smaller makes no turn another than the last */
+
+static bool repeats(double order, size_t turns)
+{
+    const double times = order * (double)turns;
+    return fabs(times - round(times)) < HCI_ORDER_TOLERANCE * (double)turns;
+}
+
+/* Whether what is seen repeats after so many turns. */
+static bool all_repeat(const hci_solution *s, double ripple_Nm, double current_A, size_t turns)
+{
+    for (size_t k = 0; k < s->order_count; ++k)
+        if (hci_order_largest_Nm(&s->order[k]) >= ripple_Nm &&
+            !repeats(hci_order_number(&s->order[k]), turns))
+            return false;
+    for (size_t k = 0; k < s->current.count; ++k)
+        if (hci_amplitude(s->current.wave[k].sine, s->current.wave[k].cosine) >= current_A &&
+            !repeats(s->current.wave[k].order, turns))
+            return false;
+    return true;
+}
+
+/* The turns after which what is seen repeats: those of the period, or fewer. */
+static size_t visible_turns(const hci_solution *s)
+{
+    double ripple_Nm = 0.0, current_A = 0.0;
+    size_t turns = 1;
+    for (size_t k = 0; k < s->order_count; ++k)
+        if (hci_order_number(&s->order[k]) >= HCI_ORDER_TOLERANCE)
+            ripple_Nm = fmax(ripple_Nm, RIPPLE * hci_order_largest_Nm(&s->order[k]));
+    for (size_t k = 0; k < s->current.count; ++k)
+        current_A =
+            fmax(current_A, VISIBLE * hci_amplitude(s->current.wave[k].sine, s->current.wave[k].cosine));
+    while (turns < s->period_turns && !all_repeat(s, ripple_Nm, current_A, turns))
+        ++turns;
+    return turns;
+}
+
 static void hci_solution_curves_sample(const hci_solution_curves *c, double theta_rad,
                                        double value[HCI_CURVES])
 {
@@ -98,20 +137,30 @@ static void fill_column(hci_solution_curves *c, size_t column)
     }
 }
 
-void hci_solution_curves_fill(hci_solution_curves *c, const hci_solution *s)
+static void fill(hci_solution_curves *c, const hci_solution *s, size_t turns)
 {
     const double most = (double)HCI_CURVE_COLUMNS * MOST_FINE;
     double end[HCI_CURVES];
     c->solution = s;
     c->beside = HCI_RANGE_EMPTY;
     c->top_order = visible_top_order(s);
-    c->turns = fmax(1.0, fmin((double)s->period_turns, floor(most / (8.0 * c->top_order))));
+    c->turns = fmax(1.0, fmin((double)turns, floor(most / (8.0 * c->top_order))));
     c->fine = (size_t)fmax(2.0, fmin(MOST_FINE, ceil(8.0 * c->top_order * c->turns / HCI_CURVE_COLUMNS)));
     for (size_t k = 0; k < HCI_CURVE_COLUMNS; ++k)
         fill_column(c, k);
     hci_solution_curves_sample(c, sample_angle_rad(c, HCI_CURVE_COLUMNS, 0), end);
     for (size_t j = 0; j < HCI_CURVES; ++j)
         c->value[j][HCI_CURVE_VERTICES] = end[j];
+}
+
+void hci_solution_curves_fill(hci_solution_curves *c, const hci_solution *s)
+{
+    fill(c, s, visible_turns(s));
+}
+
+void hci_solution_curves_fill_period(hci_solution_curves *c, const hci_solution *s)
+{
+    fill(c, s, s->period_turns);
 }
 
 hci_range hci_curve_range(const double *value)

@@ -32,7 +32,10 @@ typedef struct {
     double value[HCI_CURVES][HCI_CURVE_VERTICES + 1];
 } hci_solution_curves;
 
+/* Of as many turns as what is seen repeats after; or of the whole period, whose extremes are those that are
+ * stated. */
 void hci_solution_curves_fill(hci_solution_curves *curves, const hci_solution *solution);
+void hci_solution_curves_fill_period(hci_solution_curves *curves, const hci_solution *solution);
 hci_range hci_curve_range(const double *value);
 
 /* The box of a picture over the angle, with room at its left for the numbers of any of them, so that the

@@ -749,8 +749,8 @@ static void test_many_components(void)
     TEST_ASSERT_NOT_NULL(strstr(picture, ">1440</text>"));
 }
 
-/* A slow order over many turns: all of them while two samples a ripple fit, else the first ones, and it says
- * so. */
+/* A slow order over many turns: those after which it repeats while two samples a ripple fit, else the first
+ * ones, and it says so. */
 static void test_many_turns(void)
 {
     order[1] = solved(0.025, 0.5, 0.5, 0.5, HCI_ORDER_REACHED);
@@ -766,6 +766,9 @@ static void test_many_turns(void)
     draw();
     TEST_ASSERT_NOT_NULL(strstr(picture, "i<tspan class=\"sub\" dy=\"3\">b</tspan>"));
     solution.period_turns = 4096;
+    draw();
+    TEST_ASSERT_NOT_NULL(strstr(picture, "degrees; 40 of the 4096 turns of the period</text>"));
+    order[1] = solved(1.0 / 4096.0, 0.5, 0.5, 0.5, HCI_ORDER_REACHED);
     draw();
     check_picture();
     TEST_ASSERT_NOT_NULL(strstr(picture, "degrees; 240 of the 4096 turns of the period</text>"));

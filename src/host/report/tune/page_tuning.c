@@ -87,7 +87,7 @@ static void say_remark(hci_output *out, const hci_solution *s)
     char remark[sizeof s->remark.text];
     snprintf(remark, sizeof remark, "%s", s->remark.text);
     char *left_out = strstr(remark, "effects.csv: not compensated");
-    if (left_out) *left_out = '\0';
+    if (left_out) left_out[left_out > remark ? -2 : 0] = '\0'; /* what stands before it ends in "; " */
     if (remark[0]) hci_html_paragraph(out, NULL, remark);
 }
 

@@ -114,7 +114,7 @@ static void show_open(const hci_solution_page *p, const hci_plot_tuned *tuned)
 
 /* ---- currents ---- */
 
-#define STILL 1e-3 /* of the largest current: what moves less stands still in the picture */
+#define STILL 0.01 /* of the largest current: what moves less stands still in the picture */
 
 /* " from 0 to 1.2 A", " at 0 A" */
 static void words_of_way(char text[3 * HCI_HTML_NUMBER_SIZE], hci_range r, double most_A)

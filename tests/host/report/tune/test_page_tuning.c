@@ -218,12 +218,30 @@ static void test_torque_without_current(void)
                         y = picture_scale_of("quiet end", " y", 4.0);
     for (int k = 0; k < HCI_TUNING_POINTS; k += 90) {
         TEST_ASSERT_TRUE(picture_corner_of("plain", 0, k, at));
-        TEST_ASSERT_DOUBLE_WITHIN(2.0 * fabs(PIXELS * x.slope), 0.25 * k, picture_value_at(x, at[0]));
+        TEST_ASSERT_DOUBLE_WITHIN(2.0 * fabs(PIXELS * x.slope), 360.0 * k / (HCI_TUNING_POINTS - 1),
+                                  picture_value_at(x, at[0]));
         TEST_ASSERT_DOUBLE_WITHIN(2.0 * fabs(PIXELS * y.slope), open_Nm[k], picture_value_at(y, at[1]));
     }
     text_has("electrical angle in degrees", picture_text);
     text_has("<title>45°: without current 0.3 N·m</title>", picture_text); /* of the eighth strip of 6° */
     TEST_ASSERT_EQUAL_INT(60, text_count("<rect class=\"hit\"", picture_text));
+}
+
+/* Of three turns that differ by less than is seen, one. */
+static void test_turns_that_are_alike(void)
+{
+    const hci_plot_tuned tuned = {&solution, open_Nm, HCI_TUNING_POINTS};
+    fill_open();
+    solve();
+    solution.period_turns = 3;
+    draw(hci_plot_tuned_open, &tuned);
+    text_has("degrees; 1 of the 3 turns of the period</text>", picture_text);
+    text_has("<title>45°: ", picture_text);
+    order[1].before_Nm = hci_harmonic_polar(17.0 / 3.0, 0.5, 0.3);
+    order[1].torque_Nm = hci_harmonic_polar(17.0 / 3.0, 0.3, 0.3);
+    draw(hci_plot_tuned_open, &tuned);
+    text_has(">electrical angle in degrees</text>", picture_text);
+    text_has(">1080</text>", picture_text);
 }
 
 /* The same angle at the same place, however wide the numbers of each are. */
@@ -346,10 +364,13 @@ static void test_nothing_is_said_twice(void)
     hci_loop_reach_words(&solution.loop, reach, sizeof reach);
     TEST_ASSERT_TRUE(strlen(reach) > 20);
     hci_tuning_say(&tuning, HCI_TUNING_CAVEATS, "The figures are of currents that flow: %s", reach);
+    hci_tuning_say(&tuning, HCI_TUNING_WANTED, "a torque without ripple");
+    hci_note_add(&solution.remark, "a limit is given");
     hci_note_add(&solution.remark, "effects.csv: not compensated, since it acts on the shaft: friction");
     tuning.solution = &solution;
     const char *text = page();
     TEST_ASSERT_EQUAL_INT(1, text_count(reach, text));
+    text_has("<p>a limit is given</p>", text);
     text_lacks("not compensated", text);
 }
 
@@ -387,6 +408,7 @@ int main(void)
     RUN_TEST(test_angle_and_torque_over_the_time);
     RUN_TEST(test_other_logs);
     RUN_TEST(test_torque_without_current);
+    RUN_TEST(test_turns_that_are_alike);
     RUN_TEST(test_one_angle);
     RUN_TEST(test_page_without_currents);
     RUN_TEST(test_ripple_that_is_known);

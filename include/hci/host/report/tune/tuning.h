@@ -24,7 +24,7 @@ typedef enum {
 } hci_tuning_part;
 
 /* Bytes of a part, and of the commands; points of a period, its ends included. */
-enum { HCI_TUNING_TEXT = 16384, HCI_TUNING_POINTS = 1441 };
+enum { HCI_TUNING_TEXT = 16384, HCI_TUNING_POINTS = 2881 };
 
 /* All of it. Start with {0}; texts are lines, each ended by '\n'. */
 typedef struct {
