@@ -71,6 +71,7 @@ spoil light ringless 'no ring about the focus' 's/:focus-visible{outline:3px sol
 spoil light skipless 'the first stop is not a visible link' 's/\.skip:focus{top/.skip:focus{bottom/'
 spoil paper paper 'cut off on paper' 's/@media print{/@media nothing{/'
 spoil paper piece 'in one piece on paper' 's/@media print{/@media print{section{break-inside:avoid;min-height:500px}/'
+spoil paper pages 'pages on paper' 's/@media print{/@media print{section{break-after:page}/'
 spoil script script 'different without JavaScript' 's|</main>|<script>document.body.append("more")</script>&|'
 
 # shellcheck disable=SC2086 # one word for each copy

@@ -6,6 +6,7 @@ page there as PNG in the light, in the dark and on a telephone, and as PDF, for 
 import json
 import os
 import pathlib
+import re
 import sys
 
 sys.dont_write_bytecode = True
@@ -13,6 +14,7 @@ from chromium import Chromium  # noqa: E402
 
 MEASURE = (pathlib.Path(__file__).parent / "measure.js").read_text()
 PHONE, DESK, PAPER = (390, 844), (1280, 900), (718, 1000)  # paper: A4 less margins at 96 dots an inch
+MOST_PAGES = 3
 
 
 def noises(events):
@@ -121,8 +123,13 @@ def is_whole_on_paper(browser, url):
                                    ".map((e) => Math.round(e.getBoundingClientRect().height))"):
         if height > 0.4 * PAPER[1]:
             yield f"in one piece on paper: {height} of {PAPER[1]} pixels of a page"
-    if not browser.pdf().startswith(b"%PDF"):
+    browser.open(url)  # folded, as it is printed
+    paper = browser.pdf()
+    if not paper.startswith(b"%PDF"):
         yield "cannot be printed"
+    pages = len(re.findall(rb"/Type\s*/Page[^s]", paper))
+    if pages > MOST_PAGES:
+        yield f"{pages} pages on paper"
 
 
 def needs_no_script(browser, url):

@@ -74,7 +74,7 @@ static const char STYLE[] =
     "details:not([open]){display:none}.compare{font-size:10pt;margin:.5rem 0}.compare th,.compare "
     "td{padding-top:.15rem;padding-bottom:.15rem}"
     ".table{overflow:visible;max-height:none}"
-    ".wide svg{width:13cm;margin:0 auto}figcaption,p.quiet{font-size:8pt}"
+    ".wide svg{max-height:9.5cm}figcaption,p.quiet{font-size:8pt}"
     ".wide,tr,p,figcaption{break-inside:avoid}h1,h2,caption,thead{break-after:avoid}"
     "th{position:static}"
     "caption{position:static;max-width:none}th,td{padding:.1rem .4rem}"

@@ -56,8 +56,8 @@ void hci_panel_angle(hci_output *out, const hci_solution_curves *c, const hci_sv
     char text[HCI_SVG_NUMBER_SIZE + 80];
     hci_svg_grid(out, x, b, false);
     if (c->turns < (double)c->solution->period_turns)
-        snprintf(text, sizeof text, "electrical angle in degrees; %.0f of the %zu turns of the period",
-                 c->turns, c->solution->period_turns);
+        snprintf(text, sizeof text, "electrical angle in degrees; %.0f of %zu turns", c->turns,
+                 c->solution->period_turns);
     else
         snprintf(text, sizeof text, "electrical angle in degrees");
     hci_svg_label(out, "quiet middle", 0.5 * (b->left + b->right), b->bottom + 35.0, text);

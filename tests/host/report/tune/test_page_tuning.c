@@ -235,7 +235,7 @@ static void test_turns_that_are_alike(void)
     solve();
     solution.period_turns = 3;
     draw(hci_plot_tuned_open, &tuned);
-    text_has("degrees; 1 of the 3 turns of the period</text>", picture_text);
+    text_has("degrees; 1 of 3 turns</text>", picture_text);
     text_has("<title>45°: ", picture_text);
     order[1].before_Nm = hci_harmonic_polar(17.0 / 3.0, 0.5, 0.3);
     order[1].torque_Nm = hci_harmonic_polar(17.0 / 3.0, 0.3, 0.3);
