@@ -419,29 +419,19 @@ void hci_html_number_text(char text[HCI_HTML_NUMBER_SIZE], double value)
     put_digits(text, value, 3);
 }
 
-/* Torque, current and voltage have one unit on a page, but where they would be mostly zeros. */
-#define LEAST_PLAIN       1e-5
-#define MOST_PLAIN        1e5
-#define ROUNDED_TORQUE_Nm 1e-12
-
-static bool is_axis(double value, const char *unit)
-{
-    const bool is_plain = fabs(value) >= LEAST_PLAIN && fabs(value) < MOST_PLAIN;
-    if (strcmp(unit, "N·m") == 0) return is_plain || fabs(value) < ROUNDED_TORQUE_Nm;
-    return (strcmp(unit, "A") == 0 || strcmp(unit, "V") == 0) && is_plain;
-}
+#define ROUNDED_Nm      1e-12
+#define ROUNDED_PERCENT 1e-9
 
 void hci_html_quantity_text(char text[HCI_HTML_NUMBER_SIZE], double value, const char *unit)
 {
     const bool is_share = strcmp(unit, "%") == 0 || strcmp(unit, "×") == 0;
-    if (is_axis(value, unit))
-        hci_svg_short_text(text, value);
-    else if (is_share)
-        put_digits(text, fabs(value) < 1e-9 ? 0.0 : value, 3);
-    else
-        hci_svg_quantity_text(text, value, unit);
-    if (is_axis(value, unit) || is_share)
-        snprintf(text + strlen(text), HCI_HTML_NUMBER_SIZE - strlen(text), is_share ? " %s" : " %s", unit);
+    if (fabs(value) < (is_share ? ROUNDED_PERCENT : strcmp(unit, "N·m") == 0 ? ROUNDED_Nm : 0.0)) value = 0.0;
+    if (!is_share) {
+        hci_svg_axis_text(text, value, unit);
+        return;
+    }
+    put_digits(text, value, 3);
+    snprintf(text + strlen(text), HCI_HTML_NUMBER_SIZE - strlen(text), " %s", unit);
 }
 
 static void put_number(hci_output *out, double value, int digits)

@@ -135,26 +135,18 @@ void hci_svg_tell_more(hci_output *out, const char *text)
     hci_svg_text(out, text);
 }
 
-/* Whether a prefix would be odd: before °, %, ×, rpm and ms, where there is no unit, and before that of an
- * axis, unless the number would be mostly zeros. */
-static bool is_plain(double value, const char *unit)
-{
-    static const char *const AXIS[] = {"N·m", "A", "V"};
-    for (size_t k = 0; k < sizeof AXIS / sizeof *AXIS; ++k)
-        if (strcmp(unit, AXIS[k]) == 0) return value == 0.0 || (fabs(value) >= 1e-5 && fabs(value) < 1e5);
-    return (unsigned char)*unit >= 0x80 || strchr("%rm", *unit);
-}
-
+/* A prefix would be odd before °, %, ×, rpm and ms, and where there is no unit. */
 void hci_svg_tell_value(hci_output *out, const char *words, double value, const char *unit)
 {
     char text[HCI_SVG_NUMBER_SIZE];
+    const bool is_plain = (unsigned char)*unit >= 0x80 || strchr("%rm", *unit);
     if (!isfinite(value)) return;
-    if (is_plain(value, unit)) {
+    if (is_plain) {
         hci_svg_short_text(text, value);
         snprintf(text + strlen(text), sizeof text - strlen(text), "%s%s",
                  !*unit || strcmp(unit, "°") == 0 ? "" : " ", unit);
     } else {
-        hci_svg_quantity_text(text, value, unit);
+        hci_svg_axis_text(text, value, unit);
     }
     hci_svg_text(out, words);
     hci_svg_text(out, text);

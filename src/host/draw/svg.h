@@ -26,6 +26,10 @@ void hci_svg_short_text(char text[HCI_SVG_NUMBER_SIZE], double value);
 /* The same with the unit and its prefix: 12 A, 25 mN·m. */
 void hci_svg_quantity_text(char text[HCI_SVG_NUMBER_SIZE], double value, const char *unit);
 
+/* The same in the unit of an axis, which torque, current and voltage have on a page: without a prefix, unless
+ * they were mostly zeros. 0.025 N·m, 5 µN·m, 25 mW. */
+void hci_svg_axis_text(char text[HCI_SVG_NUMBER_SIZE], double value, const char *unit);
+
 /* A multiple of `step` with the decimals that the step has. largest: of the values on the axis, which share
  * one notation; a power of ten where they are small or large, and not only near to one another. */
 void hci_svg_tick_text(char text[HCI_SVG_NUMBER_SIZE], double value, double step, double largest);

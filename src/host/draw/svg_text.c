@@ -70,6 +70,20 @@ void hci_svg_quantity_text(char text[HCI_SVG_NUMBER_SIZE], double value, const c
     }
 }
 
+#define LEAST_PLAIN 1e-5
+#define MOST_PLAIN  1e5
+
+void hci_svg_axis_text(char text[HCI_SVG_NUMBER_SIZE], double value, const char *unit)
+{
+    const bool has_axis = strcmp(unit, "N·m") == 0 || strcmp(unit, "A") == 0 || strcmp(unit, "V") == 0;
+    if (!has_axis || !(fabs(value) >= LEAST_PLAIN && fabs(value) < MOST_PLAIN)) {
+        hci_svg_quantity_text(text, value, unit);
+        return;
+    }
+    hci_svg_short_text(text, value);
+    snprintf(text + strlen(text), HCI_SVG_NUMBER_SIZE - strlen(text), " %s", unit);
+}
+
 /* ---- widths: those of the widest of the common fonts, so that what has room here has it anywhere ---- */
 
 #define BOLD 1.22 /* of a heading, which is larger too */

@@ -149,7 +149,7 @@ static void write_verdict(char line[LINE_SIZE], const hci_waveform *w)
         snprintf(line, LINE_SIZE, "%s: no order stands out of the noise", quantity);
         return;
     }
-    hci_svg_quantity_text(text, largest->amplitude, unit_of(w));
+    hci_svg_axis_text(text, largest->amplitude, unit_of(w));
     snprintf(line, LINE_SIZE, "%s: %zu order%s, the largest %s at electrical order %.6g", quantity, w->kept,
              w->kept == 1 ? "" : "s", text, largest->order);
 }
@@ -157,8 +157,8 @@ static void write_verdict(char line[LINE_SIZE], const hci_waveform *w)
 static void write_facts(char line[LINE_SIZE], const hci_waveform *w, hci_range r)
 {
     char swing[HCI_SVG_NUMBER_SIZE], friction[HCI_SVG_NUMBER_SIZE];
-    hci_svg_quantity_text(swing, r.high - r.low, unit_of(w));
-    hci_svg_quantity_text(friction, w->friction_Nm, "N·m");
+    hci_svg_axis_text(swing, r.high - r.low, unit_of(w));
+    hci_svg_axis_text(friction, w->friction_Nm, "N·m");
     snprintf(line, LINE_SIZE, "peak to peak %s%s%s · turns: %zu forward, %zu backward · errors %s", swing,
              isfinite(w->friction_Nm) ? " · friction " : "", isfinite(w->friction_Nm) ? friction : "",
              w->turns_forward, w->turns_backward,

@@ -28,7 +28,7 @@ static void missed_line(char line[LINE_SIZE], const hci_solution *s, size_t miss
 {
     char order[HCI_SVG_NUMBER_SIZE], error[HCI_SVG_NUMBER_SIZE], more[HCI_SVG_NUMBER_SIZE] = "";
     hci_svg_short_text(order, s->worst_order);
-    hci_svg_quantity_text(error, s->worst_error_Nm, "N·m");
+    hci_svg_axis_text(error, s->worst_error_Nm, "N·m");
     if (missed > 1)
         snprintf(more, sizeof more, ", %zu more order%s missed", missed - 1, missed > 2 ? "s" : "");
     snprintf(line, LINE_SIZE, "Not reached: order %s is off by %s%s%s", order, error, more,
@@ -38,8 +38,8 @@ static void missed_line(char line[LINE_SIZE], const hci_solution *s, size_t miss
 static void limit_line(char line[LINE_SIZE], const hci_solution *s)
 {
     char current[HCI_SVG_NUMBER_SIZE], voltage[HCI_SVG_NUMBER_SIZE];
-    hci_svg_quantity_text(current, s->peak_phase_current_A, "A");
-    hci_svg_quantity_text(voltage, s->peak_line_voltage_V, "V");
+    hci_svg_axis_text(current, s->peak_phase_current_A, "A");
+    hci_svg_axis_text(voltage, s->peak_line_voltage_V, "V");
     snprintf(line, LINE_SIZE, "Over a limit: the wanted torque takes a peak phase current of %s", current);
     if (isfinite(s->peak_line_voltage_V))
         snprintf(line + strlen(line), LINE_SIZE - strlen(line), " and line voltage of %s", voltage);
@@ -49,7 +49,7 @@ static void verdict_line(char line[LINE_SIZE], const hci_solution *s)
 {
     const size_t missed = missed_count(s);
     char tolerance[HCI_SVG_NUMBER_SIZE];
-    hci_svg_quantity_text(tolerance, s->tolerance_Nm, "N·m");
+    hci_svg_axis_text(tolerance, s->tolerance_Nm, "N·m");
     if (missed > 0)
         missed_line(line, s, missed);
     else if (!s->within_limits)
@@ -61,7 +61,7 @@ static void verdict_line(char line[LINE_SIZE], const hci_solution *s)
 static void peak_to_peak_text(char text[HCI_SVG_NUMBER_SIZE], const hci_solution_curves *c, size_t curve)
 {
     const hci_range r = hci_curve_range(c->value[curve]);
-    hci_svg_quantity_text(text, r.high - r.low, "N·m");
+    hci_svg_axis_text(text, r.high - r.low, "N·m");
 }
 
 static void facts_line(char line[LINE_SIZE], const hci_solution_curves *c)
@@ -69,8 +69,8 @@ static void facts_line(char line[LINE_SIZE], const hci_solution_curves *c)
     const hci_solution *s = c->solution;
     char mean[HCI_SVG_NUMBER_SIZE], error[HCI_SVG_NUMBER_SIZE], order[HCI_SVG_NUMBER_SIZE],
         before[HCI_SVG_NUMBER_SIZE], after[HCI_SVG_NUMBER_SIZE], loss[HCI_SVG_NUMBER_SIZE];
-    hci_svg_quantity_text(mean, mean_torque_Nm(s), "N·m");
-    hci_svg_quantity_text(error, s->worst_error_Nm, "N·m");
+    hci_svg_axis_text(mean, mean_torque_Nm(s), "N·m");
+    hci_svg_axis_text(error, s->worst_error_Nm, "N·m");
     hci_svg_short_text(order, s->worst_order);
     peak_to_peak_text(before, c, HCI_CURVE_BEFORE);
     peak_to_peak_text(after, c, HCI_CURVE_AFTER);
@@ -89,7 +89,7 @@ static void plain_line(char line[LINE_SIZE], const hci_solution *s, const char *
     const bool has_mean = s->order_count > 0 && hci_order_number(&s->order[0]) < HCI_ORDER_TOLERANCE;
     const double made_Nm = has_mean ? s->order[0].before_Nm.cosine : 0.0,
                  wanted_Nm = has_mean ? s->order[0].target_Nm.cosine : 0.0;
-    hci_svg_quantity_text(made, made_Nm, "N·m");
+    hci_svg_axis_text(made, made_Nm, "N·m");
     if (fabs(made_Nm - wanted_Nm) <= SAME_MEAN * fabs(wanted_Nm))
         snprintf(line, LINE_SIZE, "Before: a plain sine of %s with the wanted mean torque", plain);
     else
@@ -103,7 +103,7 @@ static void baseline_line(char line[LINE_SIZE], const hci_solution_curves *c)
 {
     const hci_solution *s = c->solution;
     char plain[HCI_SVG_NUMBER_SIZE], limit[HCI_SVG_NUMBER_SIZE];
-    hci_svg_quantity_text(plain, s->plain_amplitude_A, "A");
+    hci_svg_axis_text(plain, s->plain_amplitude_A, "A");
     if (!(s->plain_amplitude_A > 0.0)) {
         snprintf(line, LINE_SIZE,
                  "Before: no current, since no mean torque is wanted; what is left is cogging.");
