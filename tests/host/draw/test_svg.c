@@ -158,30 +158,28 @@ static const hci_svg_entry ENTRY[] = {
 static void test_a_legend_from_the_right(void)
 {
     hci_svg_legend(out, ENTRY, 4, 300.0, 50.0);
-    is_written(LABEL(
-        "legend", "284.60", "50.00", "hu") "<path class=\"cross\" d=\"M268.60 42.00L276.60 50.00\"/>\n"
-                                           "<path class=\"cross\" d=\"M268.60 50.00L276.60 42.00\"/>\n" LABEL(
-                                               "legend", "238.90", "50.00",
-                                               "g") "<circle class=\"d\" cx=\"226.90\" cy=\"46.00\" "
-                                                    "r=\"4.00\"/>\n" LABEL("legend", "177.80", "50.00",
-                                                                           "cde") "<rect class=\"b\" "
-                                                                                  "x=\"160.80\" y=\"41.00\" "
-                                                                                  "width=\"9.00\" "
-                                                                                  "height=\"10.00\"/"
-                                                                                  ">\n" LABEL("legend",
-                                                                                              "124.40",
-                                                                                              "50.00",
-                                                                                              "ab") "<path "
-                                                                                                    "class="
-                                                                                                    "\"l\" "
-                                                                                                    "d="
-                                                                                                    "\"M102."
-                                                                                                    "40 "
-                                                                                                    "46."
-                                                                                                    "00L118."
-                                                                                                    "40 "
-                                                                                                    "46.00\"/"
-                                                                                                    ">\n");
+    is_written(LABEL("legend", "284.60", "50.00",
+                     "hu") "<path class=\"cross\" d=\"M268.60 42.00L276.60 50.00\"/>\n"
+                           "<path class=\"cross\" d=\"M268.60 50.00L276.60 42.00\"/>\n" LABEL(
+                               "legend", "238.90", "50.00",
+                               "g") "<circle class=\"d\" cx=\"226.90\" cy=\"46.00\" "
+                                    "r=\"4.00\"/>\n" LABEL("legend", "177.80", "50.00",
+                                                           "cde") "<rect class=\"b\" "
+                                                                  "x=\"160.80\" y=\"41.00\" "
+                                                                  "width=\"9.00\" "
+                                                                  "height=\"10.00\"/"
+                                                                  ">\n" LABEL("legend", "124.40", "50.00",
+                                                                              "ab") "<path "
+                                                                                    "class="
+                                                                                    "\"l\" "
+                                                                                    "d="
+                                                                                    "\"M102."
+                                                                                    "40 "
+                                                                                    "46."
+                                                                                    "00L118."
+                                                                                    "40 "
+                                                                                    "46.00\"/"
+                                                                                    ">\n");
 }
 
 /* A title of 2·7.7·1.22 = 18.788 and the entries, 53.4 and 61.1, are 133.288 from 34 left of the box. */
