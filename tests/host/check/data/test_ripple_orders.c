@@ -210,7 +210,8 @@ static void test_lines_of_any_turn(void)
         setUp();
         run.count = (size_t)bins;
         for (int k = 0; k < bins; ++k)
-            theta[k] = -TURN * (floor(chance() * (0.45 + 0.009 * trial) * bins) + 0.5) / bins;
+            theta[k] =
+                -TURN * (floor((0.07 * trial + chance() * (0.45 + 0.009 * trial)) * bins) + 0.5) / bins;
         for (int n = 3; n < 60; n += 1 + trial % 5)
             add(n, exp(-4.0 * chance()));
         const int filled = bins_by_hand(bins, mean), trusted = filled / 4;
