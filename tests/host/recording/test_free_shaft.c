@@ -176,6 +176,7 @@ static hci_run *add_rubbed(double turns, double at_rad_per_s)
         const double way = at_rad_per_s < 0.0 ? -1.0 : 1.0;
         r->speed_rad_per_s[k] = at_rad_per_s * (1.0 + 0.125 * sin(0.17 * (double)(k * k)));
         set_current(r, k, (way * 0.12 + 0.004 * r->speed_rad_per_s[k]) / CONSTANT);
+        r->torque_Nm[k] = 0.003 + 0.001 * way;
     }
     return r;
 }
@@ -190,7 +191,7 @@ static void drag_is(const hci_run *r, double turns, const hci_drag *d)
         sum += share;
         speed += share * w;
         square += share * w * fabs(w);
-        made += share * ((w < 0.0 ? -0.12 : 0.12) + 0.004 * w);
+        made += share * ((w < 0.0 ? -0.12 : 0.12) + 0.004 * w - (w < 0.0 ? 0.002 : 0.004));
     }
     const double way = r->speed_rad_per_s[0] < 0.0 ? -1.0 : 1.0;
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, made / sum, d->drag_Nm);
@@ -238,7 +239,9 @@ static void test_a_run_both_ways(void)
     hci_run *r = add(2.3);
     double sum = 0.0, speed = 0.0, square = 0.0, sign = 0.0, made = 0.0;
     for (size_t k = 0; k < N; ++k) {
-        const double w = k % 5 == 4 ? 0.0 : (k % 5 < 2 ? -1.0 : 1.0) * (10.0 + 0.02 * (double)k);
+        const double w = k % 10 == 4   ? 0.0
+                         : k % 10 == 9 ? 0.2
+                                       : (k % 5 < 2 ? -1.0 : 1.0) * (10.0 + 0.02 * (double)k);
         const double way = (w > 0.0) - (w < 0.0);
         r->speed_rad_per_s[k] = w;
         set_current(r, k, (0.1 * way + 0.003 * w) / CONSTANT);
