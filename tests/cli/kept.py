@@ -108,7 +108,7 @@ READERS = {".fmu": of_archive, ".csv": of_table, ".json": of_json, ".svg": of_pi
 def lines_of(folder):
     for path in sorted(p for p in folder.rglob("*") if p.suffix in READERS and p.is_file()):
         for name, numbers, words in READERS[path.suffix](path):
-            yield f"{path.relative_to(folder)} {name.replace(' ', '_')}", numbers, words
+            yield f"{path.relative_to(folder)} {name.replace(' ', '_') or '-'}", numbers, words
 
 
 def is_near(now, kept, share):
