@@ -17,7 +17,7 @@ import zipfile
 import zlib
 
 NUMBER = re.compile(r"(?<![\w#.])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
-LEFT_OUT = re.compile(r"checksum|digest|version|seconds|time_limit|work|worst_order")  # the last: of two that are as bad either
+LEFT_OUT = re.compile(r"checksum|crc|digest|version|seconds|time_limit|work|worst_order")  # the last: of two that are as bad either
 
 
 def is_number(text):

@@ -61,11 +61,12 @@ ln -s "$source_dir/data" data || exit 1
 sed 's/^duration,[^,]*/duration,0.3/; s/^settle,[^,]*/settle,0.1/' data/drive/filho_strategy_2.csv >filho.csv
 head -n 7 $h >few.csv
 
-# kept NAME CODE WORD...: the results of a command go where they are compared.
+# kept NAME CODE WORD...: the results of a command go where they are compared, and what it says as JSON where that is none of its files.
 kept() {
     name=$1 code=$2
     shift 2
-    run "$code" "$@" -q -o "kept/$name"
+    run "$code" "$@" -q --json -o "kept/$name"
+    [ -e "kept/$name/summary.json" ] || cp "$work/stdout" "kept/$name.said.json"
 }
 
 # kept_all NAME: all of it beside tests/files/kept/NAME.txt; --renew: writes that anew.
