@@ -194,15 +194,28 @@ static void show_counts(const hci_check *c)
     cli_say(" (--verbose lists them)\n");
 }
 
-/* Half a degree and its error: less is none; and 5 of what a saliency explains as well. */
+/* Half a degree and its error: less is none; and 5 of what a saliency explains as well, or of a drive. */
+static double least_zero(const hci_check *c, double error)
+{
+    return isfinite(c->drive_zero_rad) ? 5.0 : fmax(c->zero_is_told ? 0.5 : 5.0, error);
+}
+
 static void show_zero(const hci_check *c)
 {
-    const double off = -degrees(remainder(c->zero_rad, 2.0 * HCI_PI)),
-                 error = fmax(0.1, degrees(c->zero_reach_rad));
+    const bool is_of_drive = isfinite(c->drive_zero_rad);
+    const double zero_rad = is_of_drive ? c->drive_zero_rad : c->zero_rad,
+                 off = -degrees(remainder(zero_rad, 2.0 * HCI_PI)),
+                 error = fmax(0.1, degrees(is_of_drive ? c->drive_zero_reach_rad : c->zero_reach_rad));
     for (size_t k = 0; k < c->findings; ++k)
         if (strcmp(c->finding[k].slip, "run_angle_offset") == 0) return;
-    if (c->verdict == HCI_CHECK_SLIPS || !(fabs(off) > fmax(c->zero_is_told ? 0.5 : 5.0, error))) return;
-    if (c->zero_is_told)
+    if (c->verdict == HCI_CHECK_SLIPS || !(fabs(off) > least_zero(c, error))) return;
+    if (is_of_drive)
+        cli_say("  angle zero   %.1f degrees electrical off in the recordings, where the drive keeps its i_d "
+                "at 0 "
+                "(by the torques within %.0f, and a drive that wants such an i_d makes them as well): "
+                "--angle-offset %.1f takes it out\n",
+                off, error, -off);
+    else if (c->zero_is_told)
         cli_say("  angle zero   %.1f \xC2\xB1 %.1f degrees electrical off in the recordings: --angle-offset "
                 "%.1f takes it "
                 "out\n",

@@ -312,6 +312,9 @@ static void judge_zero(cli_tuning *t, const hci_check *c)
     t->zero_deg = zero_deg;
     t->zero_error_deg = error_deg;
     t->zero_is_told = c->zero_is_told;
+    t->drive_zero_deg =
+        fabs(c->drive_zero_rad) * 180.0 / HCI_PI > SHOWN_DEG ? c->drive_zero_rad * 180.0 / HCI_PI : 0.0;
+    t->drive_zero_reach_deg = c->drive_zero_reach_rad * 180.0 / HCI_PI;
     if (!(c->zero_is_told && fabs(zero_deg) > SHOWN_DEG && fabs(zero_deg) > error_deg)) return;
     t->turned_deg = zero_deg;
     t->turned_error_deg = error_deg;
@@ -376,15 +379,31 @@ void cli_tune_take_offset(cli_tuning *t, double more_rad, const char *why)
 /* An encoder's zero may lie on an axis as anywhere else. */
 static const char AXIS[] = "run_angle_zero_";
 
-/* A zero that is off, and nothing else, is set right. */
+static bool is_of_zero(const char *slip)
+{
+    return strcmp(slip, "run_angle_offset") == 0 || strncmp(slip, AXIS, strlen(AXIS)) == 0;
+}
+
+/* A zero that is off, on an axis or elsewhere, and nothing else, is set right. */
 static bool finds_offset(const hci_check *c)
 {
-    size_t found = 0;
-    for (size_t k = 0; k < c->findings; ++k)
-        found += c->finding[k].probability >= HCI_CHECK_FOUND;
-    const char *slip = found == 1 ? c->finding[0].slip : "";
-    return isfinite(c->zero_rad) &&
-           (strcmp(slip, "run_angle_offset") == 0 || strncmp(slip, AXIS, strlen(AXIS)) == 0);
+    double of_zero = 0.0;
+    for (size_t k = 0; k < c->findings; ++k) {
+        if (is_of_zero(c->finding[k].slip))
+            of_zero += c->finding[k].probability;
+        else if (c->finding[k].probability >= HCI_CHECK_FOUND)
+            return false;
+    }
+    return (isfinite(c->zero_rad) || isfinite(c->drive_zero_rad)) && of_zero >= HCI_CHECK_FOUND;
+}
+
+static void take_found(cli_tuning *t, const hci_check *c)
+{
+    t->took_drive_zero = isfinite(c->drive_zero_rad);
+    if (t->took_drive_zero)
+        cli_tune_take_offset(t, c->drive_zero_rad, "the phase currents, which then lie along i_q");
+    else
+        cli_tune_take_offset(t, c->zero_rad, "what check finds in the logs");
 }
 
 hci_status cli_tune_check(cli_tuning *t, hci_note *note)
@@ -395,7 +414,7 @@ hci_status cli_tune_check(cli_tuning *t, hci_note *note)
     cli_tune_line c = {{"check", t->machine}, 2};
     hci_status status = run_check(t, run, &check, note);
     if (!status && finds_offset(&check)) {
-        cli_tune_take_offset(t, check.zero_rad, "what check finds in the logs");
+        take_found(t, &check);
         status = cli_tune_read_inputs(t, note);
         if (!status) status = run_check(t, run, &check, note);
     }

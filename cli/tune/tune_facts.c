@@ -240,10 +240,10 @@ double cli_tune_made_Nm(const cli_tuning *t)
     return t->solution.order_count > 0 ? t->solution.order[0].torque_Nm.cosine : t->mean_Nm;
 }
 
-double cli_tune_offset_to_give(const cli_tuning *t)
+double cli_tune_offset_to_give(const cli_tuning *t, double turned_deg)
 {
     const double so_far_rad = t->runs.count > 0 ? t->runs.run[0].zero_offset_rad : 0.0;
-    return remainder(so_far_rad * 180.0 / HCI_PI + t->turned_deg, 360.0);
+    return remainder(so_far_rad * 180.0 / HCI_PI + turned_deg, 360.0);
 }
 
 /* Of the wanted mean torque, that may be missing and not be spoken of. */

@@ -74,8 +74,8 @@ double cli_tune_largest_recorded_Nm(const cli_tuning *tune);
 /* The mean torque that the solved currents make, in N·m; not above the wanted one where limits act. */
 double cli_tune_made_Nm(const cli_tuning *tune);
 
-/* --angle-offset that turned_deg asks for, with the one that was given, in electrical degrees. */
-double cli_tune_offset_to_give(const cli_tuning *tune);
+/* --angle-offset of a zero that is turned by so much, with the one that was given, in electrical degrees. */
+double cli_tune_offset_to_give(const cli_tuning *tune, double turned_deg);
 
 /* The largest phase current in a recording. */
 double cli_tune_largest_recorded_A(const cli_tuning *tune);

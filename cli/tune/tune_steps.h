@@ -59,6 +59,9 @@ typedef struct {
     double zero_deg,
         zero_error_deg; /* so as check finds it by torques or voltages; NAN: they do not tell it */
     bool zero_is_told;  /* and no saliency explains it as well */
+    double drive_zero_deg, drive_zero_reach_deg; /* by the direction of the phase currents alone, if they lie
+                                                  * beside q, and within what the torques confirm it */
+    bool took_drive_zero;                        /* and it is the offset that was found */
     double open_turn_deg, open_turn_error_deg; /* by which the back-EMF is found turned, and a saliency would
                                                 * do as well; 0: none */
     bool turn_is_of_dq;    /* open_turn_deg: against i_d and i_q, and not phase currents */

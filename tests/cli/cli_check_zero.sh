@@ -67,6 +67,36 @@ tuned="$logs --pole-pairs 4 --flux 0.09 --rated-current 7.07 --torque 2"
 run 0 tune $tuned --angle-offset=-0.5235988rad -o radians
 check "an offset in radians is not handed on in degrees" grep -q 'emit .*--angle-offset -30.0000' radians/commands.sh
 
+# ---- all currents at one angle, as of a drive with its own zero and no i_d: the direction of its currents is the zero, the torques say which way it
+# points, and within how much; a common convention, a quarter of a turn and such, is no better where the currents lie beside q in it
+
+alike() { # ZERO_deg
+    load idle.csv 0 0 60 "$1" 1
+    load idle_back.csv 0 0 -60 "$1" 2
+    load light.csv 2.3 0 60 "$1" 3
+    load half.csv 5.2 0 60 "$1" 4
+    load back.csv 7 0 -60 "$1" 5
+}
+logs='idle.csv idle_back.csv light.csv half.csv back.csv'
+for zero in -73 50 73 -135 150; do
+    alike $zero
+    run 1 check motor $logs
+    says "run_angle_offset: the electrical zero of the angle in the recordings is $zero\.[0-9] degrees off where the drive keeps its i_d at 0, and by the torques within (1[0-9]|2[0-9]): give --angle-offset $((-zero))\.[0-9]"
+    check "$zero: another reading goes before the zero" [ "$(grep -E '^  (found|possible)' "$work/stdout" | head -n 1 | grep -c run_angle_offset)" -eq 1 ]
+done
+alike 85
+run 0 tune $logs --pole-pairs 4 --flux 0.09 --rated-current 7.07 --torque 2 -o driven
+says '^  - The electrical zero of the logs was found, --angle-offset -(84\.9|85\.[01])[0-9]*: there the phase currents lie along i_q, as where a drive keeps its i_d at 0, and the torques alone tell it within [12][0-9] degrees'
+check "the zero of the drive is not in the commands" grep -q 'diagnose .*--angle-offset -8[45]\.' driven/commands.sh
+alike 15
+run 0 check motor $logs
+says '^consistent' '^  angle zero   15\.[0-9] degrees electrical off in the recordings, where the drive keeps its i_d at 0 .*--angle-offset -15\.[0-9] takes it out'
+run 1 tune $logs --pole-pairs 4 --flux 0.09 --rated-current 7.07 --torque 2 -o beside
+says '^  - The phase currents lie 15\.[0-9] degrees beside the i_q of this angle: .*--angle-offset -15\.[0-9] is right'
+alike 0
+run 0 check motor $logs
+check "a zero that is right is off by the currents" [ "$(grep -c 'angle-offset' "$work/stdout")" -eq 0 ]
+
 # ---- a saliency of 1.8 mH that sags under its i_q, and magnets that sag with it, at an angle that is right: both would do, and nobody is told
 # to begin again; 3 pole pairs, 0.24 N·m/A
 

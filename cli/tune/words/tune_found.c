@@ -324,7 +324,7 @@ static void say_turned(cli_tuning *t, const hci_finding *f)
         "%.1f degrees against the angle of the logs. That is a zero of the angle that is off, and no "
         "other machine: --angle-offset %.1f takes it out (docs/tutorials/zero.md). What else is found "
         "under load may stand for it.",
-        turn_deg, t->turned_error_deg, cli_tune_offset_to_give(t));
+        turn_deg, t->turned_error_deg, cli_tune_offset_to_give(t, t->turned_deg));
 }
 
 /* A model that explains the recordings at the angle as it is leaves no other zero to be asked for. */

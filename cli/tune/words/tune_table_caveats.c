@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "cli/tune/tune_commands.h"
 #include "cli/tune/tune_facts.h"
 #include "cli/tune/tune_size.h"
 #include "cli/tune/tune_suspect.h"
@@ -132,8 +133,29 @@ static void append_of_early(cli_tuning *t)
             early, early);
 }
 
+/* What the direction of the currents tells where a drive wants no i_d. */
+static void append_of_drive_zero(cli_tuning *t)
+{
+    if (!t->is_solved) return;
+    if (t->took_drive_zero)
+        cli_tune_caveat(
+            t,
+            "The electrical zero of the logs was found, --angle-offset %s: there the phase currents lie "
+            "along "
+            "i_q, as where a drive keeps its i_d at 0, and the torques alone tell it within %.0f degrees",
+            cli_tune_offset(t), t->drive_zero_reach_deg);
+    else if (fabs(t->drive_zero_deg) > 0.0)
+        cli_tune_caveat(
+            t,
+            "The phase currents lie %.1f degrees beside the i_q of this angle: where the drive keeps its i_d "
+            "at 0 the electrical zero is off, and --angle-offset %.1f is right; the torques alone, within "
+            "%.0f degrees, do not tell it",
+            fabs(t->drive_zero_deg), cli_tune_offset_to_give(t, t->drive_zero_deg), t->drive_zero_reach_deg);
+}
+
 static void append_of_zero(cli_tuning *t)
 {
+    append_of_drive_zero(t);
     if (fabs(t->open_turn_deg) > 0.0 && t->is_solved)
         cli_tune_caveat(
             t,
@@ -147,7 +169,7 @@ static void append_of_zero(cli_tuning *t)
             t,
             "The electrical zero of the logs is %.1f ± %.1f degrees off by the torques, unless the machine "
             "has a saliency that nobody declared: begin again with --angle-offset %.1f",
-            fabs(t->turned_deg), t->turned_error_deg, cli_tune_offset_to_give(t));
+            fabs(t->turned_deg), t->turned_error_deg, cli_tune_offset_to_give(t, t->turned_deg));
 }
 
 /* What keeps the currents from being as wanted: a limit that binds, or the order that is off most. */
@@ -265,7 +287,6 @@ static void append_of_table(cli_tuning *t)
             t->solution.corrections);
     if (t->is_solved && *t->solution.corrections) append_of_gain(t);
     if (t->is_solved) append_of_early(t);
-    append_of_zero(t);
     append_of_doubt(t);
     append_of_miss(t);
     if (t->is_solved && t->size != CLI_TUNE_EXCESS) append_of_excess(t);
@@ -277,6 +298,7 @@ static void append_of_table(cli_tuning *t)
 
 void cli_tune_table_caveats(cli_tuning *t)
 {
+    append_of_zero(t);
     append_of_loop(t);
     append_of_sheet(t);
     append_of_table(t);

@@ -212,7 +212,8 @@ static bool leaves_a_trace(const check_posterior *p, const check_error_set *in, 
 static bool knows_zero(const check_data *data)
 {
     const check_interpretation declared = hci_check_as_declared();
-    return hci_check_run_zero(data, &declared).is_known;
+    const check_run_zero zero = hci_check_run_zero(data, &declared);
+    return zero.is_known && !zero.is_of_drive;
 }
 
 static bool has_angle(const check_data *data)
@@ -258,15 +259,23 @@ static hci_check_verdict verdict_of(const hci_check *check)
     return HCI_CHECK_CONSISTENT;
 }
 
+/* Of a zero by the currents, what is below is rounding. */
+#define FINEST_RAD 1e-6
+
 /* As declared, in the numbers as they are. */
 static void conclude_zero(const check_posterior *p, hci_check *check)
 {
     const check_interpretation declared = hci_check_as_declared();
     const check_run_zero zero = hci_check_run_zero(p->data, &declared);
-    check->zero_rad = zero.is_known ? zero.zero_rad : (double)NAN;
-    check->zero_error_rad = zero.is_known ? zero.std_error_rad : (double)NAN;
-    check->zero_reach_rad = zero.is_known ? hci_check_zero_error(p->data, &declared, zero) : (double)NAN;
-    check->zero_is_told = zero.is_known && hci_check_zero_is_told(p->data, &declared, zero.zero_rad);
+    const double error_rad = hci_check_zero_error(p->data, &declared, zero);
+    const bool is_measured = zero.is_known && !zero.is_of_drive;
+    check->zero_rad = is_measured ? zero.zero_rad : (double)NAN;
+    check->zero_error_rad = is_measured ? zero.std_error_rad : (double)NAN;
+    check->zero_reach_rad = is_measured ? error_rad : (double)NAN;
+    check->zero_is_told = is_measured && hci_check_zero_is_told(p->data, &declared, zero.zero_rad);
+    check->drive_zero_rad =
+        zero.is_of_drive ? round(zero.zero_rad / FINEST_RAD) * FINEST_RAD + 0.0 : (double)NAN;
+    check->drive_zero_reach_rad = zero.is_of_drive ? error_rad : (double)NAN;
 }
 
 void hci_check_conclude(const check_posterior *p, hci_check *check)

@@ -134,11 +134,17 @@ static bool is_offset(const check_error *error)
     return error->field == offsetof(check_interpretation, run_zero_free);
 }
 
-/* Not one that a saliency explains as well. */
+/* Not only by what a drive wants. */
+static bool is_measured(check_run_zero zero)
+{
+    return zero.is_known && !zero.is_of_drive;
+}
+
+/* Not one that a saliency explains as well; one that follows the currents fits no torques. */
 static bool is_told(const check_data *data, const check_interpretation *as)
 {
     const check_run_zero zero = hci_check_run_zero(data, as);
-    return zero.is_known && hci_check_zero_is_told(data, as, zero.zero_rad);
+    return zero.is_known && (zero.is_of_drive || hci_check_zero_is_told(data, as, zero.zero_rad));
 }
 
 /* Poles are an even number; a motor with one pole pair has no electrical radians of its own; degrees show by
@@ -154,7 +160,7 @@ bool hci_check_error_applies(const check_error *error, const check_data *data)
     if (error->where == CHECK_AT_SPEED_SIGN) return may_be_unsigned(data);
     if (is_offset(error)) return is_told(data, &declared);
     if (is_geared(error)) return gear_of(data) > 0.0;
-    if (is_rotated(error)) return !hci_check_run_zero(data, &declared).is_known;
+    if (is_rotated(error)) return !is_measured(hci_check_run_zero(data, &declared));
     if (error->where == CHECK_AT_PHASE)
         return data->cogging.count > 0 && (is_beyond(&data->emf) || is_beyond(&data->cogging));
     if (error->where == CHECK_AT_EMF_PHASE) return is_beyond(&data->emf);
@@ -248,15 +254,27 @@ static const char *other_phases(double degrees, double error)
                          : "; or the columns a, b, c hold the phases c, a, b";
 }
 
+/* " ± 0.4", or what a zero by the currents rests on. */
+static void say_error(const check_data *data, const check_interpretation *as, check_run_zero zero,
+                      char text[120])
+{
+    const double error = fmax(0.1, hci_check_zero_error(data, as, zero) * 180.0 / HCI_PI);
+    snprintf(text, 120,
+             zero.is_of_drive
+                 ? " degrees off where the drive keeps its i_d at 0, and by the torques within %.0f"
+                 : " \xC2\xB1 %.1f degrees off",
+             error);
+}
+
 /* "the electrical zero of the angle in the recordings is 31.0 ± 0.4 degrees off" */
 static void say_offset(const check_data *data, const check_interpretation *as, hci_check_finding *finding)
 {
     const check_run_zero zero = hci_check_run_zero(data, as);
     const double degrees = -remainder(zero.zero_rad, 2.0 * HCI_PI) * 180.0 / HCI_PI;
-    const double error = fmax(0.1, hci_check_zero_error(data, as, zero) * 180.0 / HCI_PI);
+    char error[120];
+    say_error(data, as, zero, error);
     snprintf(finding->words, sizeof finding->words,
-             "the electrical zero of the angle in the recordings is %.1f \xC2\xB1 %.1f degrees off: give "
-             "--angle-offset %.1f%s",
+             "the electrical zero of the angle in the recordings is %.1f%s: give --angle-offset %.1f%s",
              degrees, error, -degrees, other_phases(degrees, zero.std_error_rad * 180.0 / HCI_PI));
     snprintf(finding->should_be, sizeof finding->should_be, "the electrical angle %s %.1f degrees",
              degrees > 0.0 ? "-" : "+", fabs(degrees));

@@ -92,6 +92,12 @@ check_vector hci_check_current_of(const check_run *r, const check_interpretation
                                : none;
 }
 
+check_vector hci_check_mutual_of(const check_run *r, const check_interpretation *as, const check_model *m)
+{
+    const check_vector i = hci_check_current_of(r, as, m), e = hci_check_emf_expected(1.0, m);
+    return hci_check_scaled(hci_check_product(i, hci_check_conjugate(e)), 1.5);
+}
+
 static check_vector voltage_of(const check_run *r, const check_interpretation *as, const check_model *m)
 {
     const check_frame *frame = hci_check_frame_of(r, hci_check_scale_of(r, as, m));
@@ -144,6 +150,11 @@ bool hci_check_has_vector_current(const check_data *data, const check_run *r)
     return hci_check_has_current(data, r) &&
            ((r->has_dq && r->dq_is_steady) ||
             (r->has_abc && isfinite(r->current_order) && r->current_is_steady));
+}
+
+bool hci_check_tells_torque(const check_data *data, const check_run *r)
+{
+    return r->has_abc && r->has_torque && r->theta && hci_check_has_vector_current(data, r);
 }
 
 bool hci_check_is_unbalanced(double balance)

@@ -22,6 +22,9 @@ double hci_check_speed_over_time_of(const check_run *r, const check_interpretati
 /* Mean current i_d + j i_q in A; 0 where none was recorded. */
 check_vector hci_check_current_of(const check_run *r, const check_interpretation *as, const check_model *m);
 
+/* 3/2 i e* per rad/s, in N·m: its real part is what the magnets make of the current. */
+check_vector hci_check_mutual_of(const check_run *r, const check_interpretation *as, const check_model *m);
+
 /* The means of the voltage equation, in V, A and rad/s. */
 check_voltage_terms hci_check_voltage_terms_of(const check_run *r, const check_interpretation *as,
                                                const check_model *m);
@@ -34,6 +37,7 @@ double hci_check_power_of(const check_run *r, const check_interpretation *as, co
 bool hci_check_is_unbalanced(double balance);
 bool hci_check_has_speed(const check_run *r);
 bool hci_check_has_vector_current(const check_data *data, const check_run *r);
+bool hci_check_tells_torque(const check_data *data, const check_run *r); /* phase currents beside it */
 bool hci_check_has_turning_voltage(const check_run *r);
 bool hci_check_has_drop(const check_data *data, const check_run *r);
 bool hci_check_has_emf(const check_data *data, const check_run *r, const check_model *m);

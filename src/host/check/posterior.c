@@ -50,7 +50,7 @@ static double log_likelihood(const check_posterior *p, const check_interpretatio
         if (p->used[k] && is_of_flux(k) && value[k].found > 0.0)
             least =
                 fmin(least, fmin(loss_of(p, value, value[k].found), loss_of(p, value, sqrt(value[k].found))));
-    return -least;
+    return -least - hci_check_beside_q_loss(p->data, as);
 }
 
 /* A zero that may be anywhere: of all that it could be, what the recordings leave. */

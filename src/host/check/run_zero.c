@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "hci/math/dense.h"
+#include "host/check/drive_zero.h"
 #include "host/check/relations.h"
 
 /* Of the torque of a recording, beside what its currents make by the magnets: iron, and what else. */
@@ -77,21 +78,10 @@ typedef struct {
     size_t count;
 } torque_fit;
 
-static check_vector mutual_of(const check_run *r, const check_interpretation *as, const check_model *m)
-{
-    const check_vector i = hci_check_current_of(r, as, m), e = hci_check_emf_expected(1.0, m);
-    return hci_check_scaled(hci_check_product(i, hci_check_conjugate(e)), 1.5);
-}
-
-static bool tells_torque(const check_data *data, const check_run *r)
-{
-    return r->has_abc && r->has_torque && r->theta && hci_check_has_vector_current(data, r);
-}
-
 static void torque_add(torque_fit *x, const check_run *r, const check_interpretation *as,
                        const check_model *m)
 {
-    const check_vector read = mutual_of(r, as, m), p = hci_check_turned(read, -x->from_rad);
+    const check_vector read = hci_check_mutual_of(r, as, m), p = hci_check_turned(read, -x->from_rad);
     const double speed = hci_check_or_zero(hci_check_speed_of(r, as, m)), way = (speed > 0.0) - (speed < 0.0);
     const double column[UNKNOWNS] = {p.re, p.im, -p.re * p.im / x->most, -way * x->most, x->most};
     const double y = r->torque_mean * as->torque, length = hci_check_length(p);
@@ -112,10 +102,10 @@ static torque_fit torque_fit_of(const check_data *data, const check_interpretati
                     .offset_unknown = data->torque_zero_is_told ? OFFSET_TOLD : OFFSET_UNKNOWN};
     const double k_Nm_per_A = 1.5 * hci_check_length(hci_check_emf_expected(1.0, m));
     for (size_t k = 0; k < data->runs; ++k)
-        if (tells_torque(data, &data->run[k]))
-            x.most = fmax(x.most, hci_check_length(mutual_of(&data->run[k], as, m)));
+        if (hci_check_tells_torque(data, &data->run[k]))
+            x.most = fmax(x.most, hci_check_length(hci_check_mutual_of(&data->run[k], as, m)));
     for (size_t k = 0; k < data->runs; ++k)
-        if (tells_torque(data, &data->run[k])) torque_add(&x, &data->run[k], as, m);
+        if (hci_check_tells_torque(data, &data->run[k])) torque_add(&x, &data->run[k], as, m);
     const bool is_known = !isnan(m->reluctance_Nm_per_A2);
     x.expected = is_known ? m->reluctance_Nm_per_A2 * x.most / (k_Nm_per_A * k_Nm_per_A) : 0.0;
     x.unknown = is_known ? RELUCTANCE_LEAST + RELUCTANCE_KNOWN * fabs(x.expected) : RELUCTANCE_UNKNOWN;
@@ -150,7 +140,7 @@ static check_run_zero solved(torque_fit *x)
     hci_cholesky_solve(UNKNOWNS, x->gram, x->moment);
     hci_cholesky_solve(UNKNOWNS, x->gram, sine);
     return (check_run_zero){true, x->from_rad + atan2(x->moment[SINE], x->moment[COSINE]),
-                            TORQUE_UNKNOWN * sqrt(sine[SINE])};
+                            TORQUE_UNKNOWN * sqrt(sine[SINE]), false};
 }
 
 /* Currents along d and q are those of the zero that is looked for. */
@@ -170,6 +160,15 @@ static check_run_zero by_torque(const check_data *data, const check_interpretati
     zero.zero_rad = remainder(zero.zero_rad, 2.0 * HCI_PI);
     zero.is_known = zero.std_error_rad < MOST_ERROR_RAD;
     return zero;
+}
+
+/* ---- by what a drive wants */
+
+static check_run_zero by_drive(const check_data *data, const check_interpretation *as, const check_model *m)
+{
+    const check_drive_zero at = hci_check_drive_zero(data, as, m);
+    return (check_run_zero){at.is_told, at.is_told ? at.zero_rad : 0.0,
+                            at.is_told ? CHECK_DRIVE_ZERO_TOLERANCE : HCI_PI, at.is_told};
 }
 
 /* ---- whether a saliency does as well */
@@ -199,7 +198,7 @@ typedef struct {
 
 static void add_run(saliency_fit *x, const check_run *r, const check_interpretation *as, const check_model *m)
 {
-    const check_vector p = hci_check_turned(mutual_of(r, as, m), -x->zero_rad);
+    const check_vector p = hci_check_turned(hci_check_mutual_of(r, as, m), -x->zero_rad);
     const double speed = hci_check_or_zero(hci_check_speed_of(r, as, m)), way = (speed > 0.0) - (speed < 0.0);
     const double length = hci_check_length(p), q = p.re / x->most_Nm, d = -p.im / x->most_Nm;
     const double column[FREE_UNKNOWNS] = {q, d * q, -way, 1.0, q * q * q, d * q * q * q};
@@ -227,10 +226,10 @@ static saliency_fit fit_of(const check_data *data, const check_interpretation *a
 {
     saliency_fit x = {.zero_rad = zero_rad};
     for (size_t k = 0; k < data->runs; ++k)
-        if (tells_torque(data, &data->run[k]))
-            x.most_Nm = fmax(x.most_Nm, hci_check_length(mutual_of(&data->run[k], as, m)));
+        if (hci_check_tells_torque(data, &data->run[k]))
+            x.most_Nm = fmax(x.most_Nm, hci_check_length(hci_check_mutual_of(&data->run[k], as, m)));
     for (size_t k = 0; k < data->runs; ++k)
-        if (tells_torque(data, &data->run[k])) add_run(&x, &data->run[k], as, m);
+        if (hci_check_tells_torque(data, &data->run[k])) add_run(&x, &data->run[k], as, m);
     expect(&x, FREE_MAGNETS, 1.0, MAGNETS_UNKNOWN);
     expect(&x, FREE_FRICTION, 0.0, FRICTION_UNKNOWN);
     expect(&x, FREE_OFFSET, 0.0, data->torque_zero_is_told ? OFFSET_TOLD : OFFSET_UNKNOWN);
@@ -274,13 +273,40 @@ check_run_zero hci_check_run_zero(const check_data *data, const check_interpreta
     check_interpretation at_zero = *as;
     at_zero.run_zero_rad = 0.0;
     const check_model m = hci_check_model_of(data, &at_zero);
-    const check_run_zero zero = by_voltage(data, &at_zero, &m);
-    return zero.is_known ? zero : by_torque(data, &at_zero, &m);
+    check_run_zero zero = by_voltage(data, &at_zero, &m);
+    if (!zero.is_known) zero = by_torque(data, &at_zero, &m);
+    return zero.is_known ? zero : by_drive(data, &at_zero, &m);
 }
 
 void hci_check_take_run_zero(const check_data *data, check_interpretation *as)
 {
     if (as->run_zero_free > 0.0) as->run_zero_rad = hci_check_run_zero(data, as).zero_rad;
+}
+
+/* Nats: of drives that turn a shaft at one angle of the current one in five weakens its field or uses a
+ * saliency, by up to as much i_d as i_q, and one in thirty has an i_d of another kind. */
+#define WEAKENED      1.5
+#define SELDOM_BESIDE 3.5
+
+/* Whether i_d is negative throughout, and no larger than i_q. */
+static bool weakens_field(const check_data *data, const check_interpretation *as, const check_model *m)
+{
+    bool weakens = true;
+    for (size_t k = 0; k < data->runs; ++k) {
+        if (!hci_check_tells_torque(data, &data->run[k])) continue;
+        const check_vector p = hci_check_mutual_of(&data->run[k], as, m);
+        weakens = weakens && p.im > 0.0 && p.im < fabs(p.re);
+    }
+    return weakens;
+}
+
+double hci_check_beside_q_loss(const check_data *data, const check_interpretation *as)
+{
+    const check_run_zero zero = hci_check_run_zero(data, as);
+    const check_model m = hci_check_model_of(data, as);
+    const double beside = remainder(zero.zero_rad - as->run_zero_rad, HCI_PI) / CHECK_DRIVE_ZERO_TOLERANCE,
+                 most = weakens_field(data, as, &m) ? WEAKENED : SELDOM_BESIDE;
+    return zero.is_of_drive ? fmin(0.5 * beside * beside, most) : 0.0;
 }
 
 static bool has_voltage(const check_data *data, const check_model *m)
@@ -309,6 +335,7 @@ double hci_check_zero_error(const check_data *data, const check_interpretation *
     const check_model m = hci_check_model_of(data, &at_zero);
     const double step_rad = HCI_PI / 180.0;
     if (!zero.is_known || has_voltage(data, &m)) return zero.std_error_rad;
+    if (zero.is_of_drive) return hci_check_drive_zero(data, &at_zero, &m).reach_rad;
     return fmax(zero.std_error_rad, fmax(reach(data, &at_zero, &m, zero.zero_rad, step_rad),
                                          reach(data, &at_zero, &m, zero.zero_rad, -step_rad)));
 }

@@ -95,6 +95,8 @@ char *hci_check_json(const hci_check *check)
     hci_json_number(&json, "probability_as_declared", check->probability_as_declared);
     hci_json_number(&json, "zero_e_rad", check->zero_rad);
     hci_json_number(&json, "zero_error_e_rad", check->zero_error_rad);
+    hci_json_number(&json, "drive_zero_e_rad", check->drive_zero_rad);
+    hci_json_number(&json, "drive_zero_reach_e_rad", check->drive_zero_reach_rad);
     put_lists(&json, check);
     return hci_json_end(&json);
 }

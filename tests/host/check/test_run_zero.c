@@ -163,7 +163,7 @@ static void test_reach_of_the_zero(void)
         data.inductance.reluctance_Nm_per_A2 = declared;
         for (int j = 0; j < RUNS; ++j)
             motor_run[j].torque_mean = 1.5 * MOTOR_k_e * I_Q[j] + declared * I_D[j] * I_Q[j];
-        const check_run_zero at = {true, 0.0, 1e-3};
+        const check_run_zero at = {true, 0.0, 1e-3, false};
         TEST_ASSERT_DOUBLE_WITHIN(1e-9, fmax(reach_rad(1), reach_rad(-1)),
                                   hci_check_zero_error(&data, &as, at));
     }
@@ -188,9 +188,84 @@ static void test_zero_that_is_told(void)
     TEST_ASSERT_TRUE(told > 0 && not_told > 0);
 }
 
+/* ---- by the drive ---- */
+
+/* Currents so far ahead of the q of the recorded angle, in a machine without saliency; sign: of the torque.
+ */
+static void record_along(double ahead_rad, double second_rad, double sign)
+{
+    static const double AMPERES[RUNS] = {4.0, 9.0};
+    data = motor_data();
+    data.inductance.given = false;
+    data.value[CHECK_inductance_d_H] = data.value[CHECK_inductance_q_H] = NAN;
+    for (int k = 0; k < RUNS; ++k) {
+        const double ahead = ahead_rad + (k > 0 ? second_rad : 0.0);
+        motor_record(&data, -AMPERES[k] * sin(ahead), AMPERES[k] * cos(ahead), true);
+        motor_run[k].has_voltage = motor_run[k].has_phase_voltage = false;
+        motor_run[k].torque_mean = sign * 1.5 * MOTOR_k_e * AMPERES[k];
+    }
+}
+
+static void test_currents_along_one_direction(void)
+{
+    for (int degrees = -170; degrees < 180; degrees += 20)
+        for (int sign = -1; sign <= 1; sign += 2) {
+            const double ahead_rad = degrees * REF_PI / 180.0,
+                         along_rad = sign > 0 ? ahead_rad : ahead_rad + REF_PI;
+            record_along(ahead_rad, 0.0, sign);
+            const check_run_zero zero = hci_check_run_zero(&data, &as);
+            TEST_ASSERT_TRUE(zero.is_known && zero.is_of_drive);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, remainder(zero.zero_rad - along_rad, 2.0 * REF_PI));
+            /* its cosine is that of 5 % of the back-EMF and 5 % beside */
+            TEST_ASSERT_DOUBLE_WITHIN(1e-6, acos(1.0 - hypot(0.05, 0.05)),
+                                      hci_check_zero_error(&data, &as, zero));
+        }
+}
+
+/* A declared saliency turns the currents of a drive, and several directions are none. */
+static void test_currents_that_tell_no_zero(void)
+{
+    record_along(0.5, 0.0, 1.0);
+    data.inductance = (check_inductance){
+        .given = true, .are_slopes = true, .reluctance_Nm_per_A2 = 1.5 * MOTOR_p * (MOTOR_L_d - MOTOR_L_q)};
+    TEST_ASSERT_FALSE(hci_check_run_zero(&data, &as).is_known);
+    record_along(0.5, 0.0, 1.0);
+    motor_run[1].has_dq = true; /* of the frame of the drive */
+    TEST_ASSERT_FALSE(hci_check_run_zero(&data, &as).is_of_drive);
+    record_along(0.5, 0.6, 1.0);
+    TEST_ASSERT_FALSE(hci_check_run_zero(&data, &as).is_of_drive);
+}
+
+/* Behind q by so much, and before it: with i_d < 0, up to as much as i_q, as of a weakened field. */
+static void test_loss_beside_q(void)
+{
+    static const double BESIDE[] = {-1.5, -0.4, -0.1, -0.03, 0.0, 0.03, 0.1, 0.4, 0.7, 0.9, 1.5};
+    record_along(0.5, 0.0, 1.0);
+    for (int k = 0; k < 11; ++k) {
+        const double most = BESIDE[k] > 0.0 && BESIDE[k] < 0.25 * REF_PI ? 1.5 : 3.5;
+        as.run_zero_rad = 0.5 - BESIDE[k];
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, fmin(0.5 * pow(BESIDE[k] / 0.06, 2.0), most),
+                                  hci_check_beside_q_loss(&data, &as));
+    }
+    record_along(0.5, 0.6, 1.0);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_check_beside_q_loss(&data, &as));
+}
+
+/* Driving and braking on one line, i_d has both signs: no field is weakened so. */
+static void test_loss_of_both_signs(void)
+{
+    record_along(0.4, REF_PI, 1.0);
+    motor_run[1].torque_mean = -motor_run[1].torque_mean;
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 3.5, hci_check_beside_q_loss(&data, &as));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_currents_along_one_direction);
+    RUN_TEST(test_currents_that_tell_no_zero);
+    RUN_TEST(test_loss_beside_q);
+    RUN_TEST(test_loss_of_both_signs);
     RUN_TEST(test_error_of_the_zero);
     RUN_TEST(test_reach_of_the_zero);
     RUN_TEST(test_zero_that_is_told);

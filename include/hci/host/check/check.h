@@ -98,6 +98,10 @@ typedef struct {
                                       * zero is that of the tables; NAN: they do not tell it */
     double zero_reach_rad; /* zero_error_rad with what a saliency beside it leaves open, as it is said */
     bool zero_is_told; /* and no saliency, known or not, explains the torques as well at the zero as it is */
+    double drive_zero_rad,
+        drive_zero_reach_rad; /* where they do not, and all currents lie in one direction: the
+                               * zero_rad with which they lie along q, as of a drive that keeps its
+                               * i_d at 0, and within how much the torques confirm it; else NAN */
     hci_check_evidence evidence[HCI_CHECK_MOST_EVIDENCE]; /* relations that could be checked */
     size_t evidences;                                     /* entries of evidence in use */
     hci_check_gap gap[HCI_CHECK_MOST_EVIDENCE];           /* relations that could not */
