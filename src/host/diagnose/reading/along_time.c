@@ -164,7 +164,7 @@ size_t hci_reading_along_time(const hci_regression *e, const hci_effects *effect
         turns_before(o, rows, lead, s->period_s);
     } else
         lead = lead_in(e, s, parts, o);
-    o->filtered = stages_in(effects) * (lead + rows);
+    o->filtered = stages_in(effects) * (lead + rows) / parts; /* one between samples takes little */
     hci_effects_filter(effects, o->time_s, lead + rows, o->torque_Nm, o->by_value);
     return lead;
 }

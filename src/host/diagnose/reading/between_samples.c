@@ -9,7 +9,7 @@
 #define LINE_RAD   0.5  /* up to which a line will do, where they follow each other unevenly */
 #define FINE_RAD   1.0  /* from sample to sample, up to which a cubic through them will do */
 
-enum { MOST_PARTS = 200, MOST_PARTS_OF_STEP = 8 };
+enum { MOST_PARTS = 200, MOST_PARTS_OF_STEP = 4 };
 
 double hci_finest_order(const hci_machine *machine, const hci_effects *effects)
 {

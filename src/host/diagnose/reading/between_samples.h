@@ -16,7 +16,7 @@ bool hci_is_coarse(const hci_binned_sample *sample, size_t count, double finest_
 
 /* In how many equal parts a step from sample to sample is to be taken, so that such an order turns by about a
  * radian in a part, or where samples do not follow each other evenly by half of one; 1 where it turns by
- * hardly more than a radian in the step, at most eight. */
+ * hardly more than a radian in the step, at most four. */
 size_t hci_parts_of_step(double step_rad, double finest_order, bool even);
 
 /* At a share of the way between two samples: angle, speed and currents in the rotor frame along straight
