@@ -372,6 +372,26 @@ static void test_terms_are_the_strongest_orders(void)
     }
 }
 
+/* Of ten samples orders below the fifth; what is below 1e-4 of the largest value is none. */
+static void test_terms_of_few_samples(void)
+{
+    enum { SAMPLES = 10 };
+    double value[SAMPLES];
+    hci_foreign_map_init(&written, &hci_foreign_beckhoff);
+    for (int k = 0; k < SAMPLES; ++k) {
+        const double x = 2.0 * HCI_PI * k / SAMPLES;
+        value[k] = 2.0 * sin(4.0 * x + 0.7) + 5.0 * cos(5.0 * x) + 9e-4 * sin(2.0 * x) + 5e-4 * sin(3.0 * x);
+    }
+    hci_foreign_find_terms(&written, value, SAMPLES);
+    TEST_ASSERT_EQUAL(2, written.terms);
+    TEST_ASSERT_EQUAL(0, written.left_out);
+    TEST_ASSERT_EQUAL_DOUBLE(4.0, written.term[0].order);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0, written.term[0].amplitude);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.7, written.term[0].phase_rad);
+    TEST_ASSERT_EQUAL_DOUBLE(2.0, written.term[1].order);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 9e-4, written.term[1].amplitude);
+}
+
 static double wave_at(hci_foreign_wave wave, double x, double phase)
 {
     switch (wave) {
@@ -542,6 +562,7 @@ int main(void)
     RUN_TEST(test_other_files_are_not_maps);
     RUN_TEST(test_cut_off_anywhere);
     RUN_TEST(test_terms_are_the_strongest_orders);
+    RUN_TEST(test_terms_of_few_samples);
     RUN_TEST(test_waves_are_the_same_sine);
     RUN_TEST(test_angle_there_and_back);
     RUN_TEST(test_what_drives_make_of_a_map);
