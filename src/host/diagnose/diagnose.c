@@ -17,6 +17,7 @@
 #include "host/diagnose/no_load_denied.h"
 #include "host/diagnose/odd_run.h"
 #include "host/diagnose/open_voltage.h"
+#include "host/diagnose/prepare/drift.h"
 #include "host/diagnose/prepare/swing_groups.h"
 #include "host/diagnose/run_errors.h"
 #include "host/diagnose/search/attribute.h"
@@ -73,6 +74,17 @@ static void swings_fill(const hci_binned_samples *samples, hci_diagnosis *d)
         const hci_swing_group *g = &found.group[k];
         d->swing[d->swings++] =
             (hci_free_swing){g->of_turn, g->frequency, g->error, g->amplitude_Nm, g->runs};
+    }
+}
+
+static void drifts_fill(const hci_binned_samples *samples, hci_diagnosis *d)
+{
+    d->drifts = 0;
+    d->drift_Nm = 0.0;
+    for (size_t r = 0; r < samples->run_count; ++r) {
+        const double drift_Nm = hci_drift_peak_to_peak_Nm(&samples->statistics[r].drift);
+        d->drifts += drift_Nm > 0.0;
+        d->drift_Nm = fmax(d->drift_Nm, drift_Nm);
     }
 }
 
@@ -141,6 +153,7 @@ static hci_status fill(hci_dataset *b, const hci_runs *runs, hci_attribution *a,
     d->disbelieved = a->disbelieved && a->unknown ? a->disbelieved->name : NULL;
     d->disbelieved_share = a->disbelieved_share;
     swings_fill(&b->samples, d);
+    drifts_fill(&b->samples, d);
     zeros_fill(&b->samples, d);
     hci_unexplained_fill(b, a, d);
     hci_candidates_remove_type(&a->model.candidates, &hci_empirical_type);

@@ -107,6 +107,8 @@ static void put_lists(hci_json *json, const hci_diagnosis *d)
     for (size_t k = 0; k < d->swings; ++k)
         put_swing(json, &d->swing[k]);
     hci_json_close(json);
+    hci_json_number(json, "drifts", (double)d->drifts);
+    hci_json_number(json, "drift_Nm", d->drift_Nm);
     hci_json_array(json, "measure_next_points");
     for (size_t k = 0; k < d->next_points; ++k)
         put_next_point(json, &d->next[k]);

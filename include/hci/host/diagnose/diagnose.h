@@ -169,6 +169,8 @@ typedef struct {
     size_t unexplained_count;                          /* entries of unexplained in use */
     hci_free_swing swing[HCI_MOST_FREE_SWINGS];        /* beside the turn of the rotor */
     size_t swings;                                     /* entries of swing in use */
+    size_t drifts;       /* runs whose torque drifts much slower than a turn: taken out of it */
+    double drift_Nm;     /* the largest of them, from its least to its largest in the run */
     size_t zeros_read;   /* runs in which all that was read as current is the zeros of the sensors */
     double zeros_read_A; /* the largest of them */
     double rms_before_Nm, rms_after_Nm, noise_Nm;                 /* of the runs that were fitted */

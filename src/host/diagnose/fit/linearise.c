@@ -83,18 +83,19 @@ static void columns_clear(const filling *f, const hci_segment *s)
 
 /* ---- rows ---- */
 
-/* Takes out of the values v[k·stride] what is along the constant c[k], whose square is given. */
-static void take_constant_out(const double *c, double square, double *v, size_t rows, size_t stride)
+/* Takes out of the values v[k·stride] a share of what is along the constant c[k], over the square of that. */
+static void take_constant_out(const double *c, double share, double *v, size_t rows, size_t stride)
 {
     double along = 0.0;
     for (size_t k = 0; k < rows; ++k)
         along += c[k] * v[k * stride];
     for (size_t k = 0; k < rows; ++k)
-        v[k * stride] -= c[k] * along / square;
+        v[k * stride] -= c[k] * along * share;
 }
 
-/* A load that is not known is a constant of each segment, at its best value whatever the model. */
-static void constants_free(const filling *f, const hci_segment *s, const hci_noise *noise)
+/* A load that is not known is a constant of each segment, at its best value whatever the model; one that is
+ * known within so much stays as far as the noise of the mean is no more than that. */
+static void constants_free(const filling *f, const hci_segment *s, const hci_noise *noise, double unknown_Nm)
 {
     double square = 0.0;
     for (size_t k = 0; k < s->count; ++k)
@@ -103,9 +104,10 @@ static void constants_free(const filling *f, const hci_segment *s, const hci_noi
     for (size_t k = 0; k < s->count; ++k)
         square += f->constant[k] * f->constant[k];
     if (!(square > 0.0)) return;
-    take_constant_out(f->constant, square, f->y, s->count, 1);
+    const double share = (1.0 - 1.0 / sqrt(1.0 + unknown_Nm * unknown_Nm * square)) / square;
+    take_constant_out(f->constant, share, f->y, s->count, 1);
     for (size_t c = 0; c < f->model->columns; ++c)
-        take_constant_out(f->constant, square, f->x + c, s->count, f->model->columns);
+        take_constant_out(f->constant, share, f->x + c, s->count, f->model->columns);
 }
 
 /* Of a sample that tells nothing. */
@@ -129,7 +131,8 @@ static void torque_rows(const filling *f, const hci_segment *s, const hci_predic
     hci_noise_whiten(noise, f->y, s->count, 1);
     hci_noise_whiten(noise, f->x, s->count, m->columns);
     columns_clear(f, s);
-    if (hci_regression_mean_is_free(f->regression, s)) constants_free(f, s, noise);
+    const double unknown_Nm = hci_regression_mean_unknown_Nm(f->regression, s);
+    if (unknown_Nm > 0.0) constants_free(f, s, noise, unknown_Nm);
 }
 
 /* What the sum of the readings leaves falls by, with a value: of gains g_s the currents are f Σ i_s,read/(1 +

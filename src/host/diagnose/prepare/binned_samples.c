@@ -7,6 +7,7 @@
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
 #include "host/diagnose/prepare/current_rate.h"
+#include "host/diagnose/prepare/drift.h"
 #include "host/diagnose/prepare/repeats.h"
 #include "host/diagnose/prepare/rest.h"
 #include "host/diagnose/prepare/run_statistics.h"
@@ -71,6 +72,7 @@ static void sample_of(const reduction *x, size_t k, hci_binned_sample *c)
     c->sum_A = r->has_sum ? r->i_A[3 * k] + r->i_A[3 * k + 1] + r->i_A[3 * k + 2] : (double)NAN;
     c->time_s = r->time_s ? r->time_s[k] : 0.0;
     if (x->statistics->swings > 0) c->torque_Nm -= hci_swings_at_Nm(x->statistics, c->time_s);
+    if (x->statistics->drift.degree > 0) c->torque_Nm -= hci_drift_at_Nm(&x->statistics->drift, c->time_s);
     c->reading.elapsed_s = r->time_s ? r->time_s[k] - r->time_s[0] : 0.0;
     c->count = x->at_rest[k] ? 0.0 : 1.0;
 }
@@ -363,10 +365,16 @@ static size_t alike_end(const reduction *x, const hci_turn *turns, size_t count,
     return next;
 }
 
+/* Beside a drift that was taken out. */
+static bool creep(const reduction *x, const hci_turn *turns, size_t count)
+{
+    return x->statistics->drift.degree == 0 && hci_turns_creep(x->statistics, turns, count);
+}
+
 /* Turns that are alike: one mean, or where the torque creeps along them several, since a mean has no time. */
 static bool alike_segments(const reduction *x, const hci_turn *turns, size_t count)
 {
-    const bool creeps = hci_turns_creep(x->statistics, turns, count);
+    const bool creeps = creep(x, turns, count);
     size_t pieces = creeps ? count / LEAST_TURNS : 1;
     if (pieces > CREEPING_PIECES) pieces = CREEPING_PIECES;
     for (size_t k = 0; k < pieces; ++k) {
@@ -473,7 +481,7 @@ static bool any_creeps(const reduction *x, const hci_turn *turns, size_t count)
 {
     for (size_t k = 0, next; k < count; k = next) {
         next = alike_end(x, turns, count, k);
-        if (hci_turns_creep(x->statistics, turns + k, next - k)) return true;
+        if (creep(x, turns + k, next - k)) return true;
     }
     return false;
 }
@@ -606,6 +614,17 @@ static bool swings_fill(const hci_machine *machine, const hci_run *runs, const h
     return true;
 }
 
+static void drifts_fill(const hci_machine *machine, const hci_run *runs, hci_binned_samples *samples)
+{
+    static const hci_effects none = {NULL, 0};
+    const double Nm_per_A = hci_torque_constant(machine, &none);
+    for (size_t k = 0; k < samples->run_count; ++k)
+        if (is_usable(&runs[k]))
+            samples->statistics[k].drift =
+                hci_drift_find(&runs[k], &samples->statistics[k], machine->pole_pairs, Nm_per_A);
+    hci_drifts_leave_to_effect(samples->statistics, samples->run_count);
+}
+
 /* What is known of the runs before they are reduced. False when memory is out. */
 static bool statistics_fill(const hci_machine *machine, double rated_current_A, const hci_run *runs,
                             hci_binned_samples *samples)
@@ -613,6 +632,7 @@ static bool statistics_fill(const hci_machine *machine, double rated_current_A, 
     for (size_t k = 0; k < samples->run_count; ++k)
         samples->statistics[k] = hci_run_statistics_of(&runs[k], machine->pole_pairs);
     hci_run_statistics_zeros_find(samples->statistics, samples->run_count, rated_current_A);
+    drifts_fill(machine, runs, samples);
     if (!swings_fill(machine, runs, NULL, samples)) return false;
     const hci_swing_groups known = hci_swing_groups_find(samples->statistics, samples->run_count);
     return known.count == 0 || swings_fill(machine, runs, &known, samples);

@@ -6,6 +6,7 @@
 
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
+#include "host/diagnose/prepare/drift.h"
 #include "host/diagnose/prepare/swing.h"
 #include "host/numeric/fft.h"
 #include "host/numeric/statistics.h"
@@ -43,9 +44,11 @@ typedef struct {
 
 static double channel_at(const hci_repeats_question *q, int channel, size_t k)
 {
-    if (channel == 0)
-        return q->run->torque_Nm[k] -
-               (q->statistics->swings > 0 ? hci_swings_at_Nm(q->statistics, q->run->time_s[k]) : 0.0);
+    if (channel == 0) {
+        const hci_run_statistics *f = q->statistics;
+        return q->run->torque_Nm[k] - (f->swings > 0 ? hci_swings_at_Nm(f, q->run->time_s[k]) : 0.0) -
+               (f->drift.degree > 0 ? hci_drift_at_Nm(&f->drift, q->run->time_s[k]) : 0.0);
+    }
     const hci_dq i = hci_run_dq(q->run, q->pole_pairs, k);
     return channel == 1 ? i.d : i.q;
 }

@@ -14,6 +14,15 @@ typedef struct {
     double cosine_Nm, sine_Nm;     /* cosine_Nm·cos ωt + sine_Nm·sin ωt, t as recorded */
 } hci_swing;
 
+enum { HCI_DRIFT_DEGREE = 3 };
+
+/* A torque that creeps along the time of a run: powers of τ = (t - middle)/half, from −1 to 1 in it. */
+typedef struct {
+    int degree; /* 0: none */
+    double middle_s, half_s;
+    double at_middle_Nm, coefficient_Nm[HCI_DRIFT_DEGREE]; /* of τ, τ², τ³ */
+} hci_drift;
+
 typedef struct {
     double mean_torque_Nm, rms_torque_Nm;
     double speed_deviation;                 /* rad/s, about the mean */
@@ -35,6 +44,7 @@ typedef struct {
     double coldest_C, hottest_C;      /* of its samples; NAN */
     hci_swing swing[HCI_MOST_SWINGS]; /* taken out of the samples' torques; the largest first */
     size_t swings;                    /* entries of swing in use */
+    hci_drift drift;                  /* taken out of the samples' torques */
 } hci_run_statistics;
 
 /* Of a run without an angle all is 0, but for what is not known (NAN). O(samples). */

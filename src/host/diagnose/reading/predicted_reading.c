@@ -449,15 +449,20 @@ void hci_predicted_reading_fill(const hci_regression *e, const hci_effects *effe
     if (o->current_Nm && !o->apart) scale_hold(o, s->count);
 }
 
-/* Of a load that is not known only what varies is left. */
-static void take_mean_out(const hci_binned_sample *sample, double *residual_Nm, size_t count)
+#define WITHIN 2.0 /* standard deviations */
+
+/* Of a load that is not known only what varies is left; of one that is known within so much, what is beyond.
+ */
+static void take_mean_out(const hci_binned_sample *sample, double *residual_Nm, size_t count,
+                          double unknown_Nm)
 {
     double telling = 0.0;
     for (size_t j = 0; j < count; ++j)
         telling += sample[j].count > 0.0;
-    const double mean_Nm = telling > 0.0 ? hci_mean(residual_Nm, count) * (double)count / telling : 0.0;
+    const double mean_Nm = telling > 0.0 ? hci_mean(residual_Nm, count) * (double)count / telling : 0.0,
+                 out_Nm = fmax(-WITHIN * unknown_Nm, fmin(WITHIN * unknown_Nm, mean_Nm));
     for (size_t j = 0; j < count; ++j)
-        if (sample[j].count > 0.0) residual_Nm[j] -= mean_Nm;
+        if (sample[j].count > 0.0) residual_Nm[j] -= out_Nm;
 }
 
 /* 0 where a sample tells no torque. */
@@ -481,7 +486,8 @@ hci_status hci_regression_residual(const hci_regression *e, const hci_effects *e
         hci_regression_count_filtered(e, predicted.filtered, 0);
         const hci_binned_sample *sample = e->samples->sample + s->first;
         residual_fill(sample, s->count, &predicted, residual_Nm + s->first);
-        if (hci_regression_mean_is_free(e, s)) take_mean_out(sample, residual_Nm + s->first, s->count);
+        const double unknown_Nm = hci_regression_mean_unknown_Nm(e, s);
+        if (unknown_Nm > 0.0) take_mean_out(sample, residual_Nm + s->first, s->count, unknown_Nm);
     }
     hci_predicted_reading_release(&predicted);
     return HCI_OK;

@@ -1,6 +1,9 @@
 #include "host/diagnose/reading/regression.h"
 
+#include <math.h>
+
 #include "host/base/memory.h"
+#include "host/diagnose/prepare/drift.h"
 
 const hci_segment *hci_regression_next(const hci_regression *e, const hci_segment *after)
 {
@@ -76,8 +79,12 @@ void hci_regression_count_products(const hci_regression *e, double products)
     if (e->work) *e->work += products / (e->work_times > 0.0 ? e->work_times : 1.0);
 }
 
-bool hci_regression_mean_is_free(const hci_regression *e, const hci_segment *s)
+/* Of what a run drifts by: rms of a straight line about its mean. */
+#define OF_DRIFT 0.28867513459481287
+
+double hci_regression_mean_unknown_Nm(const hci_regression *e, const hci_segment *s)
 {
     const hci_run *run = &e->runs[s->run];
-    return run->mean_is_unknown || (e->free_means && !run->only_mean);
+    if (run->mean_is_unknown || (e->free_means && !run->only_mean)) return (double)INFINITY;
+    return OF_DRIFT * hci_drift_peak_to_peak_Nm(&e->samples->statistics[s->run].drift);
 }

@@ -65,8 +65,10 @@ void hci_regression_count_filtered(const hci_regression *regression, size_t samp
 /* Adds multiplications of anything else. */
 void hci_regression_count_products(const hci_regression *regression, double products);
 
-/* Whether the mean of a segment says nothing: it is at its best value whatever the model. */
-bool hci_regression_mean_is_free(const hci_regression *regression, const hci_segment *segment);
+/* Within how much, one standard deviation, the mean of a segment is not known beside its noise: INFINITY
+ * where it says nothing and is at its best value whatever the model, a share of what was taken out of the
+ * torque of a run that drifts, 0 else. */
+double hci_regression_mean_unknown_Nm(const hci_regression *regression, const hci_segment *segment);
 
 /* The noise of a segment. */
 hci_noise *hci_regression_noise(const hci_regression *regression, const hci_segment *segment);

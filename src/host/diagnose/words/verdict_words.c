@@ -345,6 +345,18 @@ static void say_swings(const hci_words *w, const hci_diagnosis *d)
                          "it was taken out.");
 }
 
+/* The size of what was taken out, and what it costs. */
+static void say_drifts(const hci_words *w, const hci_diagnosis *d)
+{
+    if (d->drifts > 0)
+        hci_words_say(
+            w,
+            " The torque drifts by up to %.2g N·m along %zu of %zu runs, as the zero of a sensor does that "
+            "gets warm: that was taken out of its ripple, and the means of these runs count as far as "
+            "they are known beside it.",
+            d->drift_Nm, d->drifts, d->runs);
+}
+
 static void say_zeros(const hci_words *w, const hci_diagnosis *d)
 {
     if (d->zeros_read > 0)
@@ -581,6 +593,7 @@ void hci_diagnosis_words(const hci_diagnosis *d, char *text, size_t size)
         say_verdict(&w, d);
     say_not_taken(&w, d);
     say_swings(&w, d);
+    say_drifts(&w, d);
     say_zeros(&w, d);
     say_zero_or_cogging(&w, d);
     say_magnetic_only(&w, d);
