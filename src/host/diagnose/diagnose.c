@@ -461,6 +461,15 @@ static void loose_swings_judge(hci_diagnosis *d)
     hci_uncertainty_release(&d->uncertainty);
 }
 
+/* A torque that drifts where the model lacks nothing else: whether the sensor does, or what brakes, no recording
+ * says. */
+static void drifts_judge(hci_diagnosis *d)
+{
+    if (d->drifts == 0 || d->verdict != HCI_DIAGNOSIS_COMPLETE) return;
+    d->verdict = HCI_DIAGNOSIS_UNKNOWN;
+    hci_uncertainty_release(&d->uncertainty);
+}
+
 /* What is to be diagnosed. */
 typedef struct {
     const hci_machine_data *machine;
@@ -532,6 +541,7 @@ static hci_status judge(hci_dataset *b, const task *t, hci_attribution *a, hci_d
     if (status) return status;
     drowned_judge(b, t->machine, d);
     loose_swings_judge(d);
+    drifts_judge(d);
     return HCI_OK;
 }
 

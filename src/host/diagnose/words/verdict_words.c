@@ -267,13 +267,23 @@ static bool is_of_loads(const hci_diagnosis *d)
            d->unexplained_count == 0 && !d->disbelieved && !d->contradicted && !is_unfinished(d);
 }
 
+/* Nothing was found but that the torque drifts. */
+static bool is_of_drifts(const hci_diagnosis *d)
+{
+    return d->drifts > 0 && !any(d, HCI_FINDING_ADDED) && d->unexplained_count == 0 && !d->disbelieved &&
+           !d->contradicted && !is_unfinished(d) && d->rms_after_Nm < NOTHING_LEFT * d->noise_Nm;
+}
+
 static void say_not_known(const hci_words *w, const hci_diagnosis *d)
 {
-    hci_words_say(w, is_of_voltages(d) ? "What the model lacks does not show in these torques."
-                     : is_of_loads(d)  ? "Nothing is missing in the ripple, and the mean of the torque is an "
-                                         "unknown load, of which nothing is told."
-                     : is_unfinished(d) ? "What the model lacks is not known yet."
-                                        : "No known effect explains what the model lacks.");
+    hci_words_say(
+        w, is_of_voltages(d) ? "What the model lacks does not show in these torques."
+           : is_of_loads(d)  ? "Nothing is missing in the ripple, and the mean of the torque is an "
+                               "unknown load, of which nothing is told."
+           : is_of_drifts(d)
+               ? "Nothing is missing beside a drift, of which no recording says whether it is the sensor's."
+           : is_unfinished(d) ? "What the model lacks is not known yet."
+                              : "No known effect explains what the model lacks.");
 }
 
 static void say_partly(const hci_words *w, const hci_diagnosis *d)
