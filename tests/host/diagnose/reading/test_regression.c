@@ -20,6 +20,7 @@ static hci_segment segment[SEGMENTS];
 static hci_noise noise[SEGMENTS];
 static hci_run run[RUNS];
 static bool use[RUNS];
+static hci_run_statistics statistics[RUNS];
 static hci_binned_samples samples;
 static hci_regression regression;
 static hci_note note;
@@ -31,6 +32,7 @@ void setUp(void)
     memset(sample, 0, sizeof sample);
     memset(run, 0, sizeof run);
     memset(noise, 0, sizeof noise);
+    memset(statistics, 0, sizeof statistics);
     for (size_t n = 0; n < SEGMENTS; ++n)
         segment[n] = (hci_segment){.run = RUN[n], .first = EACH * n, .count = EACH};
     for (size_t k = 0; k < SEGMENTS * EACH; ++k) {
@@ -41,7 +43,7 @@ void setUp(void)
         use[r] = r % 2 == 1;
         run[r].torque_source = HCI_TORQUE_MEASURED;
     }
-    samples = (hci_binned_samples){sample, SEGMENTS * EACH, segment, SEGMENTS, NULL, RUNS};
+    samples = (hci_binned_samples){sample, SEGMENTS * EACH, segment, SEGMENTS, statistics, RUNS};
     regression =
         (hci_regression){.machine = &MACHINE, .samples = &samples, .runs = run, .use = use, .noise = noise};
 }
@@ -79,17 +81,31 @@ static void test_slopes_of_runs_in_use(void)
     TEST_ASSERT_TRUE(hci_regression_has_slopes(&regression));
 }
 
-/* A mean is free where it is not known, and where all are, but of a run that has nothing else. */
-static void test_means_that_are_free(void)
+static double unknown_Nm(size_t k)
 {
-    TEST_ASSERT_FALSE(hci_regression_mean_is_free(&regression, &segment[1]));
+    return hci_regression_mean_unknown_Nm(&regression, &segment[k]);
+}
+
+/* A mean says nothing where it is not known, and where all are free, but of a run that has nothing else. */
+static void test_means_that_are_not_known(void)
+{
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, unknown_Nm(1));
     run[1].mean_is_unknown = true;
-    TEST_ASSERT_TRUE(hci_regression_mean_is_free(&regression, &segment[1]));
-    TEST_ASSERT_FALSE(hci_regression_mean_is_free(&regression, &segment[4]));
+    TEST_ASSERT_TRUE(isinf(unknown_Nm(1)));
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, unknown_Nm(4));
     regression.free_means = true;
-    TEST_ASSERT_TRUE(hci_regression_mean_is_free(&regression, &segment[4]));
+    TEST_ASSERT_TRUE(isinf(unknown_Nm(4)));
     run[3].only_mean = true;
-    TEST_ASSERT_FALSE(hci_regression_mean_is_free(&regression, &segment[4]));
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, unknown_Nm(4));
+}
+
+/* Of a run that drifts along a line it is known within 1/sqrt(12) of what the torque creeps by, as if it were
+ * even. */
+static void test_means_of_a_drift(void)
+{
+    statistics[1].drift = (hci_drift){.degree = 1, .half_s = 2.0, .coefficient_Nm = {0.3}};
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.6 / sqrt(12.0), unknown_Nm(1));
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, unknown_Nm(4));
 }
 
 /* ---- one at a time ---- */
@@ -202,7 +218,8 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_segments_of_runs_in_use);
     RUN_TEST(test_slopes_of_runs_in_use);
-    RUN_TEST(test_means_that_are_free);
+    RUN_TEST(test_means_that_are_not_known);
+    RUN_TEST(test_means_of_a_drift);
     RUN_TEST(test_each_run_by_itself);
     RUN_TEST(test_work_that_is_counted);
     RUN_TEST(test_noise_of_short_segments);
