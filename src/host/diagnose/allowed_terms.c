@@ -11,8 +11,11 @@
  * without, the orders of recordings that tell all terms of it and of those that tell single ones. */
 enum { MOST_POWER = 8, PLAIN_POWER = 4, MOST_ORDER = 96, PLAIN_ORDER = 48 };
 
+enum { OF_I_Q_CUBED = 3 }; /* power of the currents in the co-energy, whose torque that is */
+
 #define FIRST_OF_SLOTS 5.0  /* order of a back-EMF beside 6, the first of cogging torque and co-energy */
 #define WHOLE_TURN     0.9  /* electrical, of a run that tells orders by its samples */
+#define SATURATES      0.02 /* of the torque per ampere, at the largest current that was recorded */
 #define NO_TORQUE      1e-9 /* N·m, of a coefficient of 1 at 1 A */
 #define HALF           1e-6 /* of an order: half as many orders as samples is one too many */
 
@@ -117,6 +120,12 @@ static double usual_of_mean(const hci_regression *e, double reference_A)
     return 0.75 * difference_H * reference_A * reference_A;
 }
 
+/* The same of the coefficient of i_d i_q²: what iron takes of the torque per ampere, T = p c (i_q/I)³. */
+static double usual_along_q(const hci_regression *e, double reference_A)
+{
+    return SATURATES * fabs(e->declared_constant) * reference_A / e->machine->pole_pairs;
+}
+
 /* As large as squares and higher powers were found, where any were; where none, as all that was. */
 static double size_of_power(const hci_coenergy_sizes *found, const hci_candidate *x)
 {
@@ -187,12 +196,14 @@ static void term_fill(const hci_regression *e, const hci_candidates *fitted, con
     t->of_mean[at] = x->coenergy_unit > 0.0 && x->term[j].order < FIRST_OF_SLOTS;
     t->by_direct[at] = needs_direct(e->machine, x, j);
     t->power[at] = x->coenergy_unit > 0.0 ? x->power : 0;
+    const bool along_q = t->of_mean[at] && !t->by_direct[at] && x->power == OF_I_Q_CUBED && !x->unlike;
+    t->iron[at] = along_q && isnan(t->fixed[at]) ? found->along_q : 0.0;
 }
 
 /* Room for so many terms; on failure what there is waits for release. */
 static hci_status terms_reserve(hci_allowed_terms *t, size_t terms, hci_note *note)
 {
-    t->unit = hci_memory_new(5 * terms + 1, sizeof *t->unit);
+    t->unit = hci_memory_new(6 * terms + 1, sizeof *t->unit);
     t->of_mean = hci_memory_new(terms + 1, sizeof *t->of_mean);
     t->by_direct = hci_memory_new(terms + 1, sizeof *t->by_direct);
     t->power = hci_memory_new(terms + 1, sizeof *t->power);
@@ -202,6 +213,7 @@ static hci_status terms_reserve(hci_allowed_terms *t, size_t terms, hci_note *no
     t->centre = t->fixed + terms;
     t->twin = t->centre + terms;
     t->known = t->twin + terms;
+    t->iron = t->known + terms;
     return HCI_OK;
 }
 
@@ -224,6 +236,7 @@ hci_status hci_allowed_terms_make(const hci_regression *regression, const hci_ca
     memset(t, 0, sizeof *t);
     hci_coenergy_sizes_of(fitted, &series, &found);
     found.mean = usual_of_mean(regression, series.reference_current_A);
+    found.along_q = usual_along_q(regression, series.reference_current_A);
     hci_status status = hci_coenergy_terms(fitted, &series, &t->candidates, note);
     if (!status) status = hci_coenergy_terms_unlike(&found, &series, &t->candidates, note);
     if (status) return status;
@@ -257,7 +270,8 @@ void hci_allowed_terms_precision(const hci_allowed_terms *t, hci_allowed_width w
 {
     for (size_t k = 0; k < t->count; ++k) {
         const double by_width = width.orders * (t->of_mean[k] ? width.mean_times : 1.0) * t->unit[k];
-        const double deviation = fmax(by_width, width.twins * of_power(t, k, width) * t->twin[k]);
+        const double twin = fmax(of_power(t, k, width) * t->twin[k], t->iron[k]);
+        const double deviation = fmax(by_width, width.twins * twin);
         precision[k] = isnan(t->fixed[k]) ? 1.0 / (deviation * deviation) : t->fixed[k];
         if (!(t->known[k] > 0.0)) continue;
         const double known = t->known[k] * (width.twins > 0.0 ? width.twins : 1.0);

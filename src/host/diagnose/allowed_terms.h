@@ -16,6 +16,7 @@ typedef struct {
     double *fixed; /* [count]: one over the variance that is expected whatever the width; NAN: by the width */
     double *centre;  /* [count]: expected value less the value of the fitted machine */
     double *twin;    /* [count]: deviation that what was found at its order makes likely; 0: none */
+    double *iron;    /* [count]: deviation as iron is that carries the largest current along q; 0: none */
     double *known;   /* [count]: of one that was found, what is likely of it; 0: any */
     bool *of_mean;   /* [count]: whether it is one of the mean torque: order 0, and of the back-EMF order 1 */
     bool *by_direct; /* [count]: whether it makes no torque without a direct current i_d */
@@ -31,7 +32,7 @@ void hci_allowed_terms_release(hci_allowed_terms *terms);
  * times that, since slots make the orders and saturation of the iron as a whole the mean. */
 typedef struct {
     double orders, mean_times;
-    double twins;  /* and no less than so many times `twin`, in units of the errors' size, */
+    double twins;  /* and no less than so many times `twin` and `iron`, in units of the errors' size, */
     double beyond; /* times this where the co-energy grows as a higher power than the square */
 } hci_allowed_width;
 

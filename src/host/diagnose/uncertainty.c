@@ -119,14 +119,14 @@ static hci_status runs_join(finding *f, hci_note *note)
 static hci_status parts_add(finding *f, hci_note *note)
 {
     const hci_regression *e = f->regression;
-    const size_t parts = hci_run_parts(e), most = parts * hci_regression_runs_in_use(e);
+    const size_t parts = hci_run_parts(e, HCI_LEAST_GROUPS - 1), most = parts * hci_regression_runs_in_use(e);
     if (!spans_enough(e, parts)) return HCI_OK;
     f->run = hci_memory_new(2 * most + 1, sizeof *f->run);
     if (!f->run || !hci_condensed_start(&f->parts, f->terms.count, most))
         return hci_note_memory(note, NULL, "what recordings leave open");
     f->group = f->run + most;
     f->parts.watch = e->watch;
-    const hci_status status = hci_run_parts_each(e, part_add, f, note);
+    const hci_status status = hci_run_parts_each(e, parts, part_add, f, note);
     return status ? status : runs_join(f, note);
 }
 

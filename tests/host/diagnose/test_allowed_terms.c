@@ -234,6 +234,19 @@ static void test_what_is_usual_of_the_mean(void)
     TEST_ASSERT_EQUAL_DOUBLE(0.0, terms.twin[at]);
 }
 
+/* Iron takes 2 % of the torque per ampere k at the largest current I, T = p c (i_q/I)³: c = 0.02 k I/p of
+ * order 0 of i_d i_q² alone, whatever sign the constant has. */
+static void test_what_is_usual_along_q(void)
+{
+    size_t at;
+    regression.declared_constant = -0.4;
+    make();
+    (void)find("saturation", "d1q2_cosine", 0.0, &at);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.02 * 0.4 * 5.0 / P, terms.iron[at]);
+    for (size_t k = 0; k < terms.count; ++k)
+        TEST_ASSERT_TRUE(k == at || terms.iron[k] == 0.0);
+}
+
 /* A term of the model keeps what was expected of it, about where that was: 0 less its value. */
 static void test_terms_of_the_model(void)
 {
@@ -335,13 +348,15 @@ static void test_the_usual_size_of_several_orders(void)
 static void test_precisions(void)
 {
     double unit[6] = {0.2, 0.2, 0.2, 0.2, 0.2, 0.2}, fixed[6] = {NAN, NAN, NAN, NAN, 9.0, 9.0},
-           twin[6] = {0.0, 0.0, 0.5, 0.5, 0.0, 0.0}, known[6] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.1}, precision[6];
+           twin[6] = {0.0, 0.0, 0.5, 0.5, 0.0, 0.0}, known[6] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.1},
+           iron[6] = {0.0}, precision[6];
     bool of_mean[6] = {false, true, false, false, false, false};
     int power[6] = {2, 2, 2, 3, 2, 2};
     const hci_allowed_terms t = {.count = 6,
                                  .unit = unit,
                                  .fixed = fixed,
                                  .twin = twin,
+                                 .iron = iron,
                                  .known = known,
                                  .of_mean = of_mean,
                                  .power = power};
@@ -356,6 +371,9 @@ static void test_precisions(void)
     hci_allowed_terms_precision(&t, (hci_allowed_width){3.0, 4.0, 0.0, 0.7}, precision);
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.0 / (0.6 * 0.6), precision[3]);
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 25.0, precision[5]);
+    iron[3] = 0.6; /* in units of the errors' size, whatever the power */
+    hci_allowed_terms_precision(&t, (hci_allowed_width){3.0, 4.0, 2.0, 0.7}, precision);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.0 / (1.2 * 1.2), precision[3]);
     known[5] = 0.4; /* 6.25 is less than the 9 that were expected */
     hci_allowed_terms_precision(&t, (hci_allowed_width){3.0, 4.0, 0.0, 0.7}, precision);
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 9.0, precision[5]);
@@ -370,6 +388,7 @@ int main(void)
     RUN_TEST(test_terms_that_are_not_in_the_model);
     RUN_TEST(test_kinds_of_terms);
     RUN_TEST(test_what_is_usual_of_the_mean);
+    RUN_TEST(test_what_is_usual_along_q);
     RUN_TEST(test_terms_of_the_model);
     RUN_TEST(test_what_was_found_at_an_order);
     RUN_TEST(test_what_is_by_the_width);

@@ -13,7 +13,7 @@
 enum { N = 3, GROUPS = 7, ROWS = 9 };
 
 static double unit[N] = {1.0, 1.5, 0.7}, fixed[N] = {NAN, NAN, NAN}, centre[N] = {0.1, 0.0, -0.2},
-              twin[N] = {0.0, 0.8, 0.9}, known[N] = {0.0, 0.0, 0.0};
+              twin[N] = {0.0, 0.8, 0.9}, known[N] = {0.0, 0.0, 0.0}, iron[N] = {0.0, 0.0, 0.0};
 static bool of_mean[N] = {true, false, false};
 static int power[N] = {1, 2, 3};
 static const hci_allowed_terms TERMS = {.count = N,
@@ -21,6 +21,7 @@ static const hci_allowed_terms TERMS = {.count = N,
                                         .fixed = fixed,
                                         .centre = centre,
                                         .twin = twin,
+                                        .iron = iron,
                                         .known = known,
                                         .of_mean = of_mean,
                                         .power = power};

@@ -21,7 +21,8 @@ typedef struct {
                                          * 0 that makes it as likely, N·m */
     double unlike[HCI_COENERGY_ORDERS]; /* and of any other */
     double usual_squares[HCI_COENERGY_ORDERS], unlike_squares[HCI_COENERGY_ORDERS]; /* of power 2 and more */
-    double mean; /* expected of order 0 whatever was found, as `usual`; 0 where nobody says */
+    double along_q; /* expected of the coefficient of i_d i_q² of order 0, N·m; 0 where nobody says */
+    double mean;    /* expected of order 0 whatever was found, as `usual`; 0 where nobody says */
 } hci_coenergy_sizes;
 
 /* The place of a term's order; a back-EMF of order 6k ± 1 belongs to 6k. */

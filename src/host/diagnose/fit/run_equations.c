@@ -55,7 +55,7 @@ hci_status hci_run_equations_make(const hci_regression *e, const hci_candidates 
     const size_t runs = hci_regression_runs_in_use(e);
     hci_candidates list = {0};
     memset(x, 0, sizeof *x);
-    x->parts = hci_run_parts(e);
+    x->parts = hci_run_parts(e, HCI_LEAST_GROUPS);
     hci_status status = hci_candidates_copy(candidates, &list, note);
     if (status) return status;
     x->run = hci_memory_new(runs * x->parts + 1, sizeof *x->run);
@@ -63,7 +63,7 @@ hci_status hci_run_equations_make(const hci_regression *e, const hci_candidates 
     if (!x->run || !x->precision) status = hci_note_memory(note, NULL, "leaving runs out");
     x->groups.group = x->run;
     if (!status) precision_take(&list, x->precision);
-    if (!status) status = hci_run_parts_each(e, group_add, &(grouping){&list, x}, note);
+    if (!status) status = hci_run_parts_each(e, x->parts, group_add, &(grouping){&list, x}, note);
     hci_candidates_release(&list);
     if (status) hci_run_equations_release(x);
     return status;

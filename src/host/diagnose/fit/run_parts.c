@@ -23,11 +23,11 @@ static bool one_is_alone(const hci_regression *e)
     return alone;
 }
 
-size_t hci_run_parts(const hci_regression *e)
+size_t hci_run_parts(const hci_regression *e, size_t few)
 {
     const size_t runs = hci_regression_runs_in_use(e);
     if (runs >= HCI_LEAST_GROUPS && one_is_alone(e)) return HCI_LEAST_GROUPS;
-    return runs > 0 && runs < HCI_LEAST_GROUPS ? (HCI_LEAST_GROUPS + runs) / runs : 1;
+    return runs > 0 && runs <= few ? (HCI_LEAST_GROUPS + runs) / runs : 1;
 }
 
 /* Where the samples of one run are: each of its segments cut to one of so many parts, all others empty. */
@@ -44,12 +44,11 @@ static void segments_cut(const hci_binned_samples *samples, size_t run, size_t p
     }
 }
 
-hci_status hci_run_parts_each(const hci_regression *e,
+hci_status hci_run_parts_each(const hci_regression *e, size_t parts,
                               hci_status (*visit)(void *context, const hci_regression *part, size_t run,
                                                   hci_note *note),
                               void *context, hci_note *note)
 {
-    const size_t parts = hci_run_parts(e);
     hci_binned_samples samples = *e->samples;
     hci_regression regression = *e;
     samples.segment = hci_memory_new(e->samples->segment_count + 1, sizeof *samples.segment);

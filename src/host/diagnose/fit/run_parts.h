@@ -8,12 +8,13 @@
  * its kind. */
 enum { HCI_LEAST_GROUPS = 3 };
 
-/* Into how many parts each run in use is cut; 1 where there are runs enough. */
-size_t hci_run_parts(const hci_regression *regression);
+/* Into how many parts each run in use is cut; 1 where there are more than `few`. Of three runs each may be
+ * the only one of its current or direction, whose mean the others do not tell. */
+size_t hci_run_parts(const hci_regression *regression, size_t few);
 
-/* Calls `visit` for each part of each run in use, with a regression that has nothing but its samples, until
- * it returns a status other than HCI_OK. HCI_ERROR_MEMORY, and what `visit` returns. */
-hci_status hci_run_parts_each(const hci_regression *regression,
+/* Calls `visit` for each of so many parts of each run in use, with a regression that has nothing but its
+ * samples, until it returns a status other than HCI_OK. HCI_ERROR_MEMORY, and what `visit` returns. */
+hci_status hci_run_parts_each(const hci_regression *regression, size_t parts,
                               hci_status (*visit)(void *context, const hci_regression *part, size_t run,
                                                   hci_note *note),
                               void *context, hci_note *note);

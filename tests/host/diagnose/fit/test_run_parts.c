@@ -45,10 +45,14 @@ static void test_few_runs_are_cut(void)
     static const size_t PARTS[] = {1, 4, 2, 1, 1, 1}; /* 3 parts or more, of 1, 2 ... runs */
     for (size_t count = 0; count <= MOST_RUNS; ++count) {
         runs_set(count, count, HCI_TORQUE_MEASURED);
-        TEST_ASSERT_EQUAL(PARTS[count], hci_run_parts(&regression));
+        TEST_ASSERT_EQUAL(PARTS[count], hci_run_parts(&regression, 2));
         runs_set(MOST_RUNS, count, HCI_TORQUE_MEASURED);
-        TEST_ASSERT_EQUAL(PARTS[count], hci_run_parts(&regression));
+        TEST_ASSERT_EQUAL(PARTS[count], hci_run_parts(&regression, 2));
     }
+    runs_set(MOST_RUNS, 3, HCI_TORQUE_MEASURED);
+    TEST_ASSERT_EQUAL(2, hci_run_parts(&regression, 3));
+    runs_set(MOST_RUNS, 4, HCI_TORQUE_MEASURED);
+    TEST_ASSERT_EQUAL(1, hci_run_parts(&regression, 3));
 }
 
 /* Any of them may be the one that is alone, and each of the two differences makes it so. */
@@ -56,14 +60,14 @@ static void test_one_without_a_sensor_that_is_alone(void)
 {
     for (size_t alone = 0; alone < 4; ++alone) {
         runs_set(4, 4, HCI_TORQUE_INERTIA);
-        TEST_ASSERT_EQUAL(1, hci_run_parts(&regression));
+        TEST_ASSERT_EQUAL(1, hci_run_parts(&regression, 2));
         run[alone].torque_source = HCI_TORQUE_HOLDING;
-        TEST_ASSERT_EQUAL(3, hci_run_parts(&regression));
+        TEST_ASSERT_EQUAL(3, hci_run_parts(&regression, 2));
         run[(alone + 1) % 4].torque_source = HCI_TORQUE_HOLDING; /* now there are two */
-        TEST_ASSERT_EQUAL(1, hci_run_parts(&regression));
+        TEST_ASSERT_EQUAL(1, hci_run_parts(&regression, 2));
         runs_set(4, 4, HCI_TORQUE_INERTIA);
         run[alone].hardly_accelerates = true;
-        TEST_ASSERT_EQUAL(3, hci_run_parts(&regression));
+        TEST_ASSERT_EQUAL(3, hci_run_parts(&regression, 2));
     }
 }
 
@@ -72,16 +76,16 @@ static void test_one_with_a_sensor_tells_for_all(void)
     runs_set(4, 4, HCI_TORQUE_INERTIA);
     run[0].torque_source = HCI_TORQUE_HOLDING;
     run[3].torque_source = HCI_TORQUE_MEASURED;
-    TEST_ASSERT_EQUAL(1, hci_run_parts(&regression));
+    TEST_ASSERT_EQUAL(1, hci_run_parts(&regression, 2));
     use[3] = false; /* it does not, where it is not in use */
-    TEST_ASSERT_EQUAL(3, hci_run_parts(&regression));
+    TEST_ASSERT_EQUAL(3, hci_run_parts(&regression, 2));
 }
 
 static void test_one_that_is_not_in_use_keeps_no_company(void)
 {
     runs_set(5, 4, HCI_TORQUE_INERTIA);
     run[0].torque_source = run[4].torque_source = HCI_TORQUE_HOLDING;
-    TEST_ASSERT_EQUAL(3, hci_run_parts(&regression));
+    TEST_ASSERT_EQUAL(3, hci_run_parts(&regression, 2));
 }
 
 /* ---- which samples */
@@ -121,7 +125,7 @@ static void test_parts_of_a_run_make_it_up(void)
     hci_note note = {{0}};
     runs_set(3, 2, HCI_TORQUE_MEASURED);
     segments_set();
-    TEST_ASSERT_EQUAL(HCI_OK, hci_run_parts_each(&regression, visit, &v, &note));
+    TEST_ASSERT_EQUAL(HCI_OK, hci_run_parts_each(&regression, hci_run_parts(&regression, 2), visit, &v, &note));
     TEST_ASSERT_EQUAL(4, v.count);
     for (size_t k = 0; k < SEGMENTS; ++k) {
         size_t next[] = {segment[k].first, segment[k].first};
@@ -152,7 +156,7 @@ static void test_whole_runs_keep_their_turns(void)
     runs_set(4, 4, HCI_TORQUE_MEASURED);
     use[1] = false;
     segments_set();
-    TEST_ASSERT_EQUAL(HCI_OK, hci_run_parts_each(&regression, visit, &v, &note));
+    TEST_ASSERT_EQUAL(HCI_OK, hci_run_parts_each(&regression, hci_run_parts(&regression, 2), visit, &v, &note));
     TEST_ASSERT_EQUAL(3, v.count);
     TEST_ASSERT_EQUAL(0, v.run[0]);
     TEST_ASSERT_EQUAL(2, v.run[1]);
@@ -168,10 +172,10 @@ static void test_a_failure_ends_it(void)
     hci_note note = {{0}};
     runs_set(3, 3, HCI_TORQUE_MEASURED);
     segments_set();
-    TEST_ASSERT_EQUAL(HCI_ERROR_NUMERIC, hci_run_parts_each(&regression, visit, &v, &note));
+    TEST_ASSERT_EQUAL(HCI_ERROR_NUMERIC, hci_run_parts_each(&regression, hci_run_parts(&regression, 2), visit, &v, &note));
     TEST_ASSERT_EQUAL(2, v.count);
     hci_memory_fail_after(0);
-    TEST_ASSERT_EQUAL(HCI_ERROR_MEMORY, hci_run_parts_each(&regression, visit, &v, &note));
+    TEST_ASSERT_EQUAL(HCI_ERROR_MEMORY, hci_run_parts_each(&regression, hci_run_parts(&regression, 2), visit, &v, &note));
     TEST_ASSERT_EQUAL(2, v.count);
 }
 
