@@ -103,6 +103,82 @@ static void test_orders_without_a_common_period(void)
     TEST_ASSERT_NOT_NULL(strstr(note.text, "the orders have no common period"));
 }
 
+/* 1/n is as good as whole after the fewest turns above 1/(1/n + the tolerance): 4095.2 and 4096.2. */
+static void test_how_many_turns_at_most(void)
+{
+    wave[0].order = 1.0 + 1.0 / 4112.0;
+    TEST_ASSERT_EQUAL_UINT64(4096, period());
+    wave[0].order = 1.0 + 1.0 / 4113.0;
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_task_find_period(&task, &set, wave, 3, NULL));
+}
+
+/* How far from whole an order may be after some turns goes by these. */
+static void test_how_exact_an_order_is(void)
+{
+    for (int sign = -1; sign <= 1; sign += 2) {
+        wave[1].order = 5.0 + sign * 0.9 * HCI_ORDER_TOLERANCE;
+        TEST_ASSERT_EQUAL_UINT64(1, period());
+        wave[1].order = 5.0 + 1.0 / 3.0 + sign * 0.9 * HCI_ORDER_TOLERANCE;
+        TEST_ASSERT_EQUAL_UINT64(3, period());
+        wave[1].order = 5.0 + sign * 1.1 * HCI_ORDER_TOLERANCE;
+        const bool has = hci_task_find_period(&task, &set, wave, 3, NULL) == HCI_OK;
+        TEST_ASSERT_TRUE(!has || task.period_turns > 1);
+        wave[1].order = 5.0;
+    }
+}
+
+/* ---- what a task is made of ---- */
+
+static void test_a_task_of_a_model(void)
+{
+    hci_quadratic_model model;
+    hci_effects effects = {NULL, 0};
+    memset(&model, 0, sizeof model);
+    memset(&task, 7, sizeof task);
+    model.machine = machine;
+    hci_task_begin(&model, &target, &task);
+    TEST_ASSERT_EQUAL_PTR(&model.machine, task.machine);
+    TEST_ASSERT_EQUAL_PTR(&target, task.target);
+    TEST_ASSERT_EQUAL_PTR(emf, task.gradient);
+    TEST_ASSERT_EQUAL_UINT64(3, task.gradient_count);
+    TEST_ASSERT_NULL(task.higher);
+    TEST_ASSERT_TRUE(!task.stop && !task.progress && !task.held && !task.has_neutral);
+    TEST_ASSERT_FALSE(hci_task_is_linear(&task)); /* inductances vary along the angle */
+    model.machine.slope_count = 0;
+    TEST_ASSERT_TRUE(hci_task_is_linear(&task));
+    model.higher.effects = &effects;
+    hci_task_begin(&model, &target, &task);
+    TEST_ASSERT_EQUAL_PTR(&model.higher, task.higher);
+    TEST_ASSERT_FALSE(hci_task_is_linear(&task));
+}
+
+static bool stop_when(void *context)
+{
+    return *(const bool *)context;
+}
+
+static void test_a_task_that_is_stopped(void)
+{
+    hci_note note = {{0}};
+    bool stopped = false;
+    TEST_ASSERT_EQUAL(HCI_OK, hci_task_goes_on(&task, &note));
+    task.stop = stop_when;
+    task.stop_context = &stopped;
+    TEST_ASSERT_EQUAL(HCI_OK, hci_task_goes_on(&task, &note));
+    TEST_ASSERT_EQUAL_STRING("", note.text);
+    stopped = true;
+    TEST_ASSERT_EQUAL(HCI_ERROR_STOPPED, hci_task_goes_on(&task, &note));
+    TEST_ASSERT_EQUAL_STRING("solving was stopped before there was a result", note.text);
+}
+
+static void test_the_temperature_of_magnets(void)
+{
+    hci_solve_options options = {.at_temperature = true, .temperature_C = 63.5};
+    TEST_ASSERT_EQUAL_DOUBLE(63.5, hci_magnet_temperature_C(&options));
+    options.at_temperature = false;
+    TEST_ASSERT_TRUE(isnan(hci_magnet_temperature_C(&options)));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -110,5 +186,10 @@ int main(void)
     RUN_TEST(test_one_half_makes_two_turns);
     RUN_TEST(test_the_least_common_period);
     RUN_TEST(test_orders_without_a_common_period);
+    RUN_TEST(test_how_many_turns_at_most);
+    RUN_TEST(test_how_exact_an_order_is);
+    RUN_TEST(test_a_task_of_a_model);
+    RUN_TEST(test_a_task_that_is_stopped);
+    RUN_TEST(test_the_temperature_of_magnets);
     return UNITY_END();
 }

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "host/base/memory.h"
 #include "unity.h"
 
 static hci_attribution a;
@@ -178,6 +179,43 @@ static void test_the_common_part_beside_declared_phases(void)
                                   value_in(&verdict(sensors)->alternative.candidates, phases, s));
 }
 
+/* The same where they are one candidate before the sensors; of the phases as they were nothing is left. */
+static void test_declared_phases_in_one_candidate(void)
+{
+    hci_candidate x = {.type = phases, .count = 3};
+    for (size_t s = 0; s < 3; ++s) {
+        x.term[s] = (hci_effect_term){s, 0.0, 0.0, NAN};
+        x.declared[s] = 0.03 + 0.04 * (double)s;
+    }
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_candidates_add(&a.model.candidates, &x, &note));
+    add_gains(0.10, 0.12, 0.02);
+    mark();
+    const hci_candidates *other = &verdict(sensors)->alternative.candidates;
+    for (size_t s = 0; s < 3; ++s) {
+        TEST_ASSERT_DOUBLE_WITHIN(1e-15, (1.03 + 0.04 * (double)s) / 1.11 - 1.0, value_in(other, phases, s));
+        for (size_t k = 0; k < other->count; ++k)
+            if (other->candidate[k].in && other->candidate[k].type == phases)
+                TEST_ASSERT_EQUAL_DOUBLE(0.03 + 0.04 * (double)s, other->candidate[k].declared[s]);
+    }
+}
+
+/* A sensor that has left has no gain any more. */
+static void test_a_sensor_that_leaves(void)
+{
+    for (size_t left = 0; left < 3; ++left) {
+        tearDown();
+        setUp();
+        add_gains(0.10, 0.11, 0.10);
+        mark();
+        TEST_ASSERT_TRUE(verdict(sensors)->ambiguous);
+        verdict(sensors)->ambiguous = verdict(magnets)->ambiguous = false;
+        for (size_t s = 0; s < 3; ++s)
+            a.model.candidates.candidate[s].in = s == left;
+        mark();
+        TEST_ASSERT_EQUAL_UINT64(0, count_ambiguous());
+    }
+}
+
 /* Gains that differ by less than a fifth of their mean are alike. */
 static void test_how_alike_two_sensors_are(void)
 {
@@ -234,6 +272,105 @@ static void test_what_is_known_of_rivals_stays(void)
     TEST_ASSERT_TRUE(verdict(magnets)->ambiguous);
 }
 
+/* ---- wherever they stand ---- */
+
+/* Verdicts in an order in which one of them is the first. */
+static void first_is(const hci_effect_type *type)
+{
+    hci_verdict *v = verdict(type);
+    const hci_effect_type *before = a.verdict[0].type;
+    a.verdict[0].type = type;
+    v->type = v == &a.verdict[0] ? type : before;
+}
+
+static void test_verdicts_in_any_order(void)
+{
+    for (int k = 0; k < 3; ++k) {
+        tearDown();
+        setUp();
+        first_is(k == 0 ? sensors : k == 1 ? phases : magnets);
+        add(magnets, 0, 1.0, 0.05, 0.001);
+        add(sensors, 1, 0.0, 0.07, 0.001);
+        add(phases, 0, 0.0, 0.1, 0.001);
+        mark();
+        TEST_ASSERT_TRUE(verdict(sensors)->ambiguous && verdict(phases)->ambiguous &&
+                         verdict(magnets)->ambiguous);
+        TEST_ASSERT_EQUAL_UINT64(3, count_ambiguous());
+        tearDown();
+        setUp();
+        first_is(k == 0 ? sensors : magnets);
+        add_gains(0.10, 0.12, 0.02);
+        mark();
+        TEST_ASSERT_TRUE(verdict(sensors)->ambiguous && verdict(magnets)->ambiguous);
+        TEST_ASSERT_EQUAL_UINT64(2, count_ambiguous());
+    }
+}
+
+/* Gains of sensors that are not in count for nothing, whatever they and their errors are; those of one
+ * candidate of three terms count as those of three of one. */
+static void test_gains_in_one_candidate(void)
+{
+    hci_candidate x = {.type = sensors, .count = 3, .in = true};
+    const double gain[3] = {0.03, -0.22, -0.20};
+    for (size_t s = 0; s < 3; ++s)
+        x.term[s] = (hci_effect_term){s, 0.0, gain[s], 0.21 / 5.2};
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_candidates_add(&a.model.candidates, &x, &note));
+    add(sensors, 1, 0.0, 5.0, 7.0);
+    a.model.candidates.candidate[a.model.candidates.count - 1].in = false;
+    verdict(sensors)->in = true;
+    mark();
+    TEST_ASSERT_TRUE(verdict(sensors)->ambiguous);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-15, 1.03 / 0.79 - 1.0,
+                              value_in(&verdict(sensors)->alternative.candidates, sensors, 0));
+    const hci_candidates *other = &verdict(sensors)->alternative.candidates;
+    for (size_t k = 0; k < other->count; ++k)
+        if (other->candidate[k].type == phases) {
+            TEST_ASSERT_EQUAL_UINT64(3, other->candidate[k].count);
+            for (size_t s = 0; s < 3; ++s) {
+                TEST_ASSERT_EQUAL_UINT64(s, other->candidate[k].term[s].parameter);
+                TEST_ASSERT_EQUAL_DOUBLE(0.0, other->candidate[k].term[s].order);
+                TEST_ASSERT_TRUE(isnan(other->candidate[k].term[s].std_error));
+            }
+        }
+}
+
+/* A back-EMF of about order 1, within the tolerance of orders, is of order 1. */
+static void test_what_is_of_order_one(void)
+{
+    static const double OFF[] = {0.5, -0.5, 1.5, -1.5};
+    for (int k = 0; k < 4; ++k) {
+        tearDown();
+        setUp();
+        add(sensors, 1, 0.0, 0.07, 0.001);
+        add(phases, 0, 0.0, 0.1, 0.001);
+        add(magnets, 0, 1.0 + OFF[k] * HCI_ORDER_TOLERANCE, 0.05, 0.001);
+        mark();
+        TEST_ASSERT_EQUAL(k < 2, verdict(magnets)->ambiguous);
+        TEST_ASSERT_EQUAL(k < 2, isnan(value_in(&verdict(sensors)->alternative.candidates, magnets, 0)));
+    }
+}
+
+/* Memory that fails leaves everything sure. */
+static void test_memory(void)
+{
+    for (int both = 0; both < 2; ++both)
+        for (long k = 0; k < 8; ++k) {
+            tearDown();
+            setUp();
+            add_gains(0.10, 0.12, 0.02);
+            if (both) add(phases, 0, 0.0, 0.1, 0.001);
+            hci_memory_fail_after(k);
+            const hci_status status = hci_search_phases_mark(&a, &note);
+            hci_memory_fail_after(-1);
+            (void)hci_memory_was_short();
+            TEST_ASSERT_TRUE(status == HCI_OK || status == HCI_ERROR_MEMORY);
+            TEST_ASSERT_TRUE(k > 0 || status == HCI_ERROR_MEMORY);
+            TEST_ASSERT_EQUAL(status == HCI_OK, verdict(sensors)->ambiguous);
+            TEST_ASSERT_EQUAL_UINT64(status ? 0 : 2, count_ambiguous());
+            TEST_ASSERT_EQUAL(both && !status, a.sensors_as_well);
+        }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -243,9 +380,15 @@ int main(void)
     RUN_TEST(test_a_negative_sequence_is_one_of_phases);
     RUN_TEST(test_the_common_part_of_two_sensors);
     RUN_TEST(test_the_common_part_beside_declared_phases);
+    RUN_TEST(test_declared_phases_in_one_candidate);
+    RUN_TEST(test_a_sensor_that_leaves);
     RUN_TEST(test_how_alike_two_sensors_are);
     RUN_TEST(test_a_common_part_beside_its_error);
     RUN_TEST(test_a_single_sensor_has_nothing_in_common);
     RUN_TEST(test_what_is_known_of_rivals_stays);
+    RUN_TEST(test_verdicts_in_any_order);
+    RUN_TEST(test_gains_in_one_candidate);
+    RUN_TEST(test_what_is_of_order_one);
+    RUN_TEST(test_memory);
     return UNITY_END();
 }
