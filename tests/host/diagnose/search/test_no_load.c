@@ -214,6 +214,99 @@ static void test_the_opposite_sign_under_load(void)
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(text, "with the opposite sign: see with `check`"), text);
 }
 
+/* ---- the opposite sign */
+
+/* Three currents; the torque that is read is so much times that of the machine, and another torque. */
+static void record_times(double gain, double other_Nm)
+{
+    static const double IQ_A[] = {2.0, 9.0, -4.0};
+    for (size_t r = 0; r < 3; ++r) {
+        record(N, &(point){60.0 + 20.0 * (double)r, IQ_A[r], 0.0, 0.0, 0.0});
+        for (size_t k = 0; k < N; ++k)
+            run[r].torque_Nm[k] = gain * run[r].torque_Nm[k] + other_Nm;
+    }
+}
+
+static bool is_opposite(void)
+{
+    bool opposite = false;
+    search_start();
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_opposite(&search, &opposite, &note));
+    return opposite;
+}
+
+static bool is_opposite_times(double gain, double other_Nm)
+{
+    tearDown();
+    setUp();
+    record_times(gain, other_Nm);
+    return is_opposite();
+}
+
+/* Effects may change it by half, whatever the zero of the sensor is. */
+static void test_how_opposite_a_torque_is(void)
+{
+    static const double GAIN[] = {-1.52, -1.48, -1.0, -0.52, -0.48, 0.5, 1.0};
+    for (size_t k = 0; k < 7; ++k) {
+        TEST_ASSERT_EQUAL(k >= 1 && k <= 3, is_opposite_times(GAIN[k], 0.0));
+        TEST_ASSERT_EQUAL(k >= 1 && k <= 3, is_opposite_times(GAIN[k], 3.0));
+        TEST_ASSERT_EQUAL(k >= 1 && k <= 3, is_opposite_times(GAIN[k], -4.0));
+    }
+}
+
+/* What is along it of the torque must be nearly all of that: 0.94 and 0.96, with waves along the turn that
+ * have nothing to do with the currents. */
+static void test_a_torque_of_something_else(void)
+{
+    for (int most = 0; most < 2; ++most) {
+        const double along = most ? 0.96 : 0.94;
+        double sum = 0.0, square = 0.0;
+        tearDown();
+        setUp();
+        record_times(-1.0, 0.0);
+        for (size_t r = 0; r < 3; ++r)
+            for (size_t k = 0; k < N; ++k) {
+                sum += run[r].torque_Nm[k] / (3.0 * N);
+                square += run[r].torque_Nm[k] * run[r].torque_Nm[k] / (3.0 * N);
+            }
+        const double wave_Nm = sqrt(2.0 * (square - sum * sum) * (1.0 / (along * along) - 1.0));
+        for (size_t r = 0; r < 3; ++r)
+            for (size_t k = 0; k < N; ++k)
+                run[r].torque_Nm[k] += wave_Nm * sin(run[r].theta_m_rad[k]);
+        TEST_ASSERT_EQUAL(most, is_opposite());
+    }
+}
+
+/* Runs of less than a hundredth of the largest current in use say nothing of it, whatever their torque is. */
+static void test_of_runs_with_a_current(void)
+{
+    for (int more = 0; more < 2; ++more) {
+        tearDown();
+        setUp();
+        record_times(-1.0, 0.0);
+        record(N, &(point){60.0, more ? 0.0902 : 0.0898, 0.0, 0.0, 0.0});
+        for (size_t k = 0; k < N; ++k)
+            run[3].torque_Nm[k] += 50.0;
+        TEST_ASSERT_EQUAL(!more, is_opposite());
+    }
+}
+
+static void test_without_runs_nothing_is_opposite(void)
+{
+    static const bool NONE[MOST_RUNS] = {false}, ONE[MOST_RUNS] = {false, true};
+    bool opposite = true;
+    record_times(-1.0, 0.0);
+    search_start();
+    const bool *use = search.regression->use;
+    search.regression->use = NONE;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_opposite(&search, &opposite, &note));
+    TEST_ASSERT_FALSE(opposite);
+    search.regression->use = ONE; /* of one torque all of the time nothing rises with another */
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_opposite(&search, &opposite, &note));
+    TEST_ASSERT_FALSE(opposite);
+    search.regression->use = use;
+}
+
 /* The declared cogging torque turned about is no cogging torque, where under load most is not understood
  * either; the friction of these runs is one whatever the angle is. */
 static void test_a_slip_is_no_cogging(void)
@@ -253,6 +346,10 @@ int main(void)
     RUN_TEST(test_what_has_left_comes_back);
     RUN_TEST(test_whatever_is_wrong_under_load);
     RUN_TEST(test_the_opposite_sign_under_load);
+    RUN_TEST(test_how_opposite_a_torque_is);
+    RUN_TEST(test_a_torque_of_something_else);
+    RUN_TEST(test_of_runs_with_a_current);
+    RUN_TEST(test_without_runs_nothing_is_opposite);
     RUN_TEST(test_a_slip_is_no_cogging);
     RUN_TEST(test_without_such_runs);
     return UNITY_END();
