@@ -9,7 +9,7 @@
 #include "support/recording.h"
 #include "unity.h"
 
-enum { MOST = 12 };
+enum { MOST = 84 };
 
 static const double ROWS = 200.0;
 
@@ -176,6 +176,121 @@ static void test_powers_that_help_together_only(void)
     }
 }
 
+/* ---- thresholds ---- */
+
+/* Moment of a column at right angles to all others by which the score falls by so much. */
+static double moment_of(double gain, double rows)
+{
+    return sqrt(ROWS * (gain + log(rows)));
+}
+
+/* The first comes in for anything, one more order for 2 or a thousandth of the rows, a term without an order
+ * for 2. */
+static void test_what_one_more_must_bring(void)
+{
+    static const struct {
+        const char *effect;
+        double rows, least;
+    } CASE[] = {{"cogging", 200.0, 2.0},
+                {"cogging", 1900.0, 2.0},
+                {"cogging", 5000.0, 5.0}, //
+                {"friction", 200.0, 2.0},
+                {"friction", 5000.0, 2.0}};
+    for (size_t k = 0; k < 5; ++k)
+        for (int more = 0; more < 2; ++more) {
+            const double rows = CASE[k].rows, second = CASE[k].least + (more ? 0.05 : -0.05);
+            list.count = 0;
+            offer(CASE[k].effect, 1, k < 3 ? 6.0 : 0.0, 0.0);
+            offer(CASE[k].effect, 1, k < 3 ? 12.0 : 0.0, 0.0);
+            item[1].term[0].parameter = k < 3 ? 0 : 1;
+            problem_start();
+            normal.rows = rows;
+            normal.moment[0] = moment_of(0.1, rows);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.1, choose_of(CASE[k].effect, CASE[k].effect));
+            TEST_ASSERT_TRUE(in[0] && !in[1]);
+            normal.moment[0] = -moment_of(9.0, rows);
+            normal.moment[1] = moment_of(second, rows);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-9, more ? 9.0 + second : 9.0,
+                                      choose_of(CASE[k].effect, CASE[k].effect));
+            TEST_ASSERT_TRUE(in[0] && in[1] == more);
+        }
+}
+
+/* Of orders of one effect twelve come in, the strongest of them, of two twice as many, of a series eighty. */
+static void test_how_many_come_in(void)
+{
+    static const struct {
+        const char *a, *b;
+        size_t most;
+    } CASE[] = {{"cogging", "cogging", 12}, {"cogging", "back_emf", 24}, {"saturation", "saturation", 80}};
+    for (size_t k = 0; k < 3; ++k) {
+        list.count = 0;
+        for (size_t n = 0; n < CASE[k].most + 2; ++n)
+            offer(n % 2 ? CASE[k].a : CASE[k].b, 1, 6.0 * (double)(n + 1), 0.0);
+        problem_start();
+        normal.square = 1e6;
+        for (size_t n = 0; n < list.count; ++n)
+            normal.moment[n] = moment_of(10.0 + (double)((5 * n + 3) % list.count), ROWS);
+        choose_of(CASE[k].a, CASE[k].b);
+        TEST_ASSERT_EQUAL_UINT64(CASE[k].most, chosen());
+        for (size_t n = 0; n < list.count; ++n)
+            TEST_ASSERT_EQUAL((5 * n + 3) % list.count >= 2, in[n]);
+    }
+}
+
+/* The same as one that becomes superfluous, of two terms, behind and before others. */
+static void test_what_becomes_superfluous_leaves_with_all_its_terms(void)
+{
+    for (int first = 0; first < 2; ++first) {
+        list.count = 0;
+        for (int n = 0; n < 3; ++n)
+            offer("cogging", n == (first ? 0 : 2) ? 2 : 1, 6.0 * (n + 1), 0.0);
+        problem_start();
+        const size_t pair = first ? 0 : 2, a = first ? 2 : 0, b = a + 1;
+        normal.square = 1000.0 * ROWS;
+        couple(a, pair, 0.66);
+        couple(b, pair, 0.66);
+        normal.moment[a] = normal.moment[b] = 10.0 * ROWS;
+        normal.moment[pair] = 13.2 * ROWS;
+        const double gain = choose_of("cogging", "cogging");
+        TEST_ASSERT_EQUAL_UINT64(2, chosen());
+        TEST_ASSERT_FALSE(in[first ? 0 : 2]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, 200.0 * ROWS - 2.0 * log(ROWS), gain);
+    }
+}
+
+/* Two powers of which the difference alone tells, by so much, beside one of an order that brings 400. */
+static size_t powers_chosen(double together, double order, bool beside)
+{
+    const double correlation = 0.999;
+    list.count = 0;
+    for (size_t k = 0; k < 4; ++k) {
+        offer("saturation", 1, k < 3 ? order : 18.0, 0.0);
+        item[k].term[0].parameter = k;
+    }
+    problem_start();
+    normal.square = 1e4;
+    couple(0, 1, correlation);
+    normal.moment[0] = sqrt(0.5 * (together + 2.0 * log(ROWS)) * ROWS * (1.0 - correlation));
+    normal.moment[1] = -normal.moment[0];
+    normal.moment[3] = beside ? moment_of(400.0, ROWS) : 0.0;
+    choose_of("saturation", "saturation");
+    TEST_ASSERT_EQUAL(beside, in[3]);
+    TEST_ASSERT_FALSE(in[2]); /* a third that brings nothing leaves again */
+    TEST_ASSERT_EQUAL(in[0], in[1]);
+    return chosen();
+}
+
+/* They must bring 10, or a tenth of what comes in one by one, and are powers of the mean. */
+static void test_what_powers_must_bring_together(void)
+{
+    TEST_ASSERT_EQUAL_UINT64(0, powers_chosen(9.9, 0.0, false));
+    TEST_ASSERT_EQUAL_UINT64(2, powers_chosen(10.1, 0.0, false));
+    TEST_ASSERT_EQUAL_UINT64(1, powers_chosen(39.0, 0.0, true));
+    TEST_ASSERT_EQUAL_UINT64(3, powers_chosen(41.0, 0.0, true));
+    TEST_ASSERT_EQUAL_UINT64(0, powers_chosen(41.0, 6.0, false));
+}
+
 /* ---- chance ---- */
 
 /* Noise makes moments N(0, rows). A pair of columns lowers χ² by more than 2 ln M + 2 ln(rows) once in M·rows
@@ -321,6 +436,36 @@ static void test_a_few_in_place_of_others_that_imitate_them(void)
     TEST_ASSERT_EQUAL_UINT64(3, chosen());
 }
 
+/* The same wherever they stand in the list. */
+static void test_a_few_that_stand_anywhere(void)
+{
+    for (size_t from = 1; from < BLOCK_ORDERS; ++from) {
+        list.count = 0;
+        for (size_t n = 0; n < BLOCK_ORDERS; ++n)
+            offer("back_emf", 1, BLOCK_ORDER[n], log((double)BLOCK_ROWS));
+        blocks_record(1000.0);
+        hci_normal_equations plain = normal;
+        memset(&normal, 0, sizeof normal);
+        problem_start();
+        normal.rows = plain.rows;
+        normal.square = plain.square;
+        for (size_t i = 0; i < BLOCK_ORDERS; ++i) {
+            const size_t row = (i + from) % BLOCK_ORDERS;
+            item[i].term[0].order = BLOCK_ORDER[row];
+            normal.moment[i] = plain.moment[row];
+            for (size_t j = 0; j < BLOCK_ORDERS; ++j)
+                normal.gram[i * normal.n + j] = plain.gram[row * plain.n + (j + from) % BLOCK_ORDERS];
+        }
+        hci_normal_equations_release(&plain);
+        choose_of("back_emf", "back_emf");
+        TEST_ASSERT_EQUAL_UINT64(3, chosen());
+        for (size_t i = 0; i < BLOCK_ORDERS; ++i) {
+            const size_t row = (i + from) % BLOCK_ORDERS;
+            TEST_ASSERT_EQUAL(row >= 1 && row <= 3, in[i]);
+        }
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -332,5 +477,10 @@ int main(void)
     RUN_TEST(test_noise_comes_in_at_the_rate_of_its_price);
     RUN_TEST(test_against_all_subsets);
     RUN_TEST(test_a_few_in_place_of_others_that_imitate_them);
+    RUN_TEST(test_a_few_that_stand_anywhere);
+    RUN_TEST(test_what_one_more_must_bring);
+    RUN_TEST(test_how_many_come_in);
+    RUN_TEST(test_what_becomes_superfluous_leaves_with_all_its_terms);
+    RUN_TEST(test_what_powers_must_bring_together);
     return UNITY_END();
 }
