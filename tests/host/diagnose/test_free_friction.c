@@ -177,6 +177,130 @@ static void test_friction_is_no_road(void)
     TEST_ASSERT_FALSE(diagnosis.nothing_measured);
 }
 
+/* ---- what is told, of numbers that are written down here */
+
+enum { DRAGS = 5 };
+
+static const double DRAG_NM[DRAGS] = {0.32, -0.33, 0.41, -0.345, 0.1};
+
+/* Five runs: the second and the fourth apart, the third without errors, and no mean of the last. */
+static hci_status tell(hci_diagnosis_verdict before, double coulomb_Nm, hci_diagnosis *d)
+{
+    static hci_effect_term of_friction = {HCI_DRAG_COULOMB, 0.0, 0.0, NAN};
+    static hci_effect friction;
+    static hci_residual_line line[2];
+    static const double SPEED[DRAGS] = {20.0, -20.0, 30.0, -50.0, 70.0};
+    bool apart[DRAGS] = {false, true, false, true, false};
+    hci_drag drag[DRAGS];
+    hci_note note = {{0}};
+    for (size_t k = 0; k < DRAGS; ++k) {
+        record(40, &(point){SPEED[k], 0.0, 0.0, -0.2 * (double)k, 0.0});
+        run[k].torque_source = HCI_TORQUE_INERTIA;
+        drag[k] = (hci_drag){.drag_Nm = k == 4 ? (double)NAN : DRAG_NM[k],
+                             .sign = SPEED[k] < 0.0 ? -1.0 : 1.0,
+                             .speed_rad_per_s = SPEED[k],
+                             .square = SPEED[k] * fabs(SPEED[k])};
+    }
+    role[3] = HCI_ROLE_HOLDOUT;
+    const hci_free_friction f = {
+        .drag = drag, .is_apart = apart, .law = {.terms = 1, .gain = 42.0}, .declared = {0.1, 0.0, 0.0}};
+    of_friction.value = 0.1 + coulomb_Nm;
+    friction = (hci_effect){hci_effect_type_find("friction"), &of_friction, 1};
+    *d = (hci_diagnosis){.verdict = before, .runs = 2, .line = line, .lines = 2, .findings = 3};
+    d->effects.list = (hci_effects){&friction, 1};
+    d->run = hci_memory_new(2, sizeof *d->run);
+    d->run[0] = (hci_run_errors){.file = run[0].name,
+                                 .role = HCI_ROLE_FIT,
+                                 .rms_after_Nm = 0.08,
+                                 .ripple_before_Nm = 0.4,
+                                 .ripple_after_Nm = 0.03,
+                                 .after_low_Nm = 0.04,
+                                 .after_high_Nm = 0.07};
+    d->run[1] = (hci_run_errors){.file = run[4].name, .role = HCI_ROLE_FIT, .error_mean_after_Nm = 7.0};
+    line[0].run = 1;
+    line[1].run = 0;
+    d->finding[0].effect = "unknown";
+    d->finding[1].effect = "cogging";
+    d->finding[2].effect = "friction";
+    d->finding[2].verdict = HCI_FINDING_REJECTED;
+    return hci_free_friction_tell(&f, &runs, d, &note);
+}
+
+/* In the order of the list, with what the lines have of it; what of a run apart varies is as it was. */
+static void test_the_errors_of_all_runs(void)
+{
+    hci_diagnosis d;
+    TEST_ASSERT_EQUAL(HCI_OK, tell(HCI_DIAGNOSIS_COMPLETE, 0.36, &d));
+    TEST_ASSERT_EQUAL_UINT64(4, d.runs);
+    TEST_ASSERT_EQUAL_UINT64(3, d.of_mean_currents);
+    static const size_t IS[4] = {0, 1, 3, 4};
+    for (size_t k = 0; k < 4; ++k)
+        TEST_ASSERT_EQUAL_PTR(run[IS[k]].name, d.run[k].file);
+    TEST_ASSERT_EQUAL_UINT64(3, d.line[0].run);
+    TEST_ASSERT_EQUAL_UINT64(0, d.line[1].run);
+    TEST_ASSERT_EQUAL(HCI_ROLE_HOLDOUT, d.run[2].role);
+    TEST_ASSERT_EQUAL(HCI_ROLE_FIT, d.run[1].role);
+    TEST_ASSERT_EQUAL(HCI_TORQUE_INERTIA, d.run[1].source);
+    for (size_t k = 0; k < 3; ++k) {
+        const double after = (IS[k] % 2 ? -0.36 : 0.36) - DRAG_NM[IS[k]];
+        TEST_ASSERT_DOUBLE_WITHIN(1e-15, -DRAG_NM[IS[k]], d.run[k].error_mean_before_Nm);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-15, after, d.run[k].error_mean_after_Nm);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-15, hypot(d.run[k].ripple_before_Nm, DRAG_NM[IS[k]]),
+                                  d.run[k].rms_before_Nm);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-15, hypot(d.run[k].ripple_after_Nm, after), d.run[k].rms_after_Nm);
+    }
+    const double share = hypot(0.03, 0.04) / 0.08;
+    TEST_ASSERT_DOUBLE_WITHIN(1e-15, 0.04 * share, d.run[0].after_low_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-15, 0.07 * share, d.run[0].after_high_Nm);
+    TEST_ASSERT_EQUAL_DOUBLE(7.0, d.run[3].error_mean_after_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.2, d.run[1].mean_torque_Nm);
+    double square = 0.0;
+    for (size_t k = 0; k < 40; ++k)
+        square += pow(run[1].torque_Nm[k] - d.run[1].mean_torque_Nm, 2.0) / 40.0;
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, sqrt(square), d.run[1].ripple_before_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, sqrt(square), d.run[1].ripple_after_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, sqrt(square), d.run[1].noise_floor_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.015, d.holdout_mean_after_Nm);
+    hci_memory_free(d.run);
+}
+
+/* Behind what is not known, with what it was found by. */
+static void test_it_is_a_finding(void)
+{
+    hci_diagnosis d;
+    TEST_ASSERT_EQUAL(HCI_OK, tell(HCI_DIAGNOSIS_COMPLETE, 0.36, &d));
+    TEST_ASSERT_EQUAL_UINT64(3, d.findings);
+    TEST_ASSERT_EQUAL_STRING("unknown", d.finding[0].effect);
+    TEST_ASSERT_EQUAL_STRING("friction", d.finding[1].effect);
+    TEST_ASSERT_EQUAL_STRING("cogging", d.finding[2].effect);
+    TEST_ASSERT_EQUAL(HCI_FINDING_ADDED, d.finding[1].verdict);
+    TEST_ASSERT_EQUAL_DOUBLE(42.0, d.finding[1].delta_bic);
+    TEST_ASSERT_TRUE(isnan(d.finding[1].residual_share));
+    hci_memory_free(d.run);
+}
+
+/* Of a Coulomb's friction x the means 0.32, −0.33 and −0.345 leave 3 (x − mean)² and their squares about
+ * their mean: up to a hundredth of all of it, as a tenth of the rms. */
+static void test_how_much_the_friction_of_the_machine_leaves(void)
+{
+    static const hci_diagnosis_verdict BEFORE[] = {HCI_DIAGNOSIS_COMPLETE, HCI_DIAGNOSIS_EXPLAINED,
+                                                   HCI_DIAGNOSIS_UNKNOWN, HCI_DIAGNOSIS_PARTLY},
+                                       WELL[] = {HCI_DIAGNOSIS_EXPLAINED, HCI_DIAGNOSIS_EXPLAINED,
+                                                 HCI_DIAGNOSIS_PARTLY, HCI_DIAGNOSIS_PARTLY};
+    const double mean = (0.32 + 0.33 + 0.345) / 3.0, whole = 0.32 * 0.32 + 0.33 * 0.33 + 0.345 * 0.345;
+    const double far = sqrt((0.01 * whole - (whole - 3.0 * mean * mean)) / 3.0);
+    for (size_t k = 0; k < 4; ++k)
+        for (int side = -1; side <= 1; side += 2)
+            for (int over = 0; over < 2; ++over) {
+                hci_diagnosis d;
+                tearDown();
+                setUp();
+                TEST_ASSERT_EQUAL(HCI_OK, tell(BEFORE[k], mean + side * far * (over ? 1.02 : 0.98), &d));
+                TEST_ASSERT_EQUAL(over ? HCI_DIAGNOSIS_PARTLY : WELL[k], d.verdict);
+                hci_memory_free(d.run);
+            }
+}
+
 static void test_memory(void)
 {
     record_free(20.0, 0.0, 300.0);
@@ -194,6 +318,9 @@ int main(void)
     RUN_TEST(test_a_weight_that_swings_the_speed_brakes_nothing);
     RUN_TEST(test_a_road_is_none_of_the_motor);
     RUN_TEST(test_friction_is_no_road);
+    RUN_TEST(test_the_errors_of_all_runs);
+    RUN_TEST(test_it_is_a_finding);
+    RUN_TEST(test_how_much_the_friction_of_the_machine_leaves);
     RUN_TEST(test_memory);
     return UNITY_END();
 }
