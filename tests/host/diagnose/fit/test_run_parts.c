@@ -100,7 +100,7 @@ static hci_status visit(void *context, const hci_regression *part, size_t of_run
 {
     visits *v = context;
     (void)note;
-    TEST_ASSERT_NULL(part->known);
+    TEST_ASSERT_TRUE(part->known == NULL && part->columns == NULL);
     TEST_ASSERT_TRUE(v->count < MOST_VISITS && part->runs == run && part->use == use);
     TEST_ASSERT_EQUAL(SEGMENTS, part->samples->segment_count);
     memcpy(v->segment[v->count], part->samples->segment, sizeof segment);
@@ -116,6 +116,7 @@ static void segments_set(void)
     for (size_t k = 0; k < SEGMENTS; first += COUNT[k++])
         segment[k] = (hci_segment){.run = RUN[k], .first = first, .count = COUNT[k], .turns = k == 2 ? 9 : 0};
     regression.known = (hci_known_equations *)&samples;
+    regression.columns = (void *)&samples;
 }
 
 /* The parts of a run follow each other without a gap, and nothing is in two of them. */
@@ -166,6 +167,21 @@ static void test_whole_runs_keep_their_turns(void)
     TEST_ASSERT_EQUAL(8, v.segment[1][3].count);
 }
 
+/* What stands behind the last run is none, and keeps none company. */
+static void test_behind_the_last_run(void)
+{
+    visits v = {0};
+    hci_note note = {{0}};
+    runs_set(5, 5, HCI_TORQUE_INERTIA);
+    run[0].torque_source = run[3].torque_source = HCI_TORQUE_HOLDING;
+    segments_set();
+    samples.run_count = 3;
+    TEST_ASSERT_EQUAL(3, hci_run_parts(&regression));
+    TEST_ASSERT_EQUAL(HCI_OK, hci_run_parts_each(&regression, visit, &v, &note));
+    TEST_ASSERT_EQUAL(9, v.count);
+    TEST_ASSERT_EQUAL(2, v.run[8]);
+}
+
 static void test_a_failure_ends_it(void)
 {
     visits v = {.fails_at = 2};
@@ -188,6 +204,7 @@ int main(void)
     RUN_TEST(test_one_that_is_not_in_use_keeps_no_company);
     RUN_TEST(test_parts_of_a_run_make_it_up);
     RUN_TEST(test_whole_runs_keep_their_turns);
+    RUN_TEST(test_behind_the_last_run);
     RUN_TEST(test_a_failure_ends_it);
     return UNITY_END();
 }
