@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "hci/host/recording/run.h"
+#include "host/base/memory.h"
 #include "host/recording/rotor_frame.h"
 #include "support/draws.h"
 #include "support/run_file.h"
@@ -301,6 +302,126 @@ static void test_what_accelerates_is_taken_out(void)
     text_has("inertia x acceleration, 0.00146 N·m rms, is taken out of the", run.remark.text);
 }
 
+/* ---- of columns that are written down */
+
+static double angle_rad[N], way_speed[N], clock_s[N], phases_A[3 * N];
+
+/* Of so many rows, with i_q of both signs; angles and speeds of none. */
+static hci_run columns_make(size_t count)
+{
+    for (size_t k = 0; k < count; ++k) {
+        angle_rad[k] = way_speed[k] = 0.0;
+        clock_s[k] = STEP_S * (double)k;
+    }
+    return (hci_run){.theta_m_rad = angle_rad,
+                     .speed_rad_per_s = way_speed,
+                     .time_s = clock_s,
+                     .i_A = phases_A,
+                     .count = count};
+}
+
+static void currents_set(size_t count)
+{
+    for (size_t k = 0; k < count; ++k)
+        hci_phases_of_dq((hci_dq){.d = 0.0, .q = 0.2 + sin(0.05 * (double)k)}, P * angle_rad[k],
+                         &phases_A[3 * k]);
+}
+
+/* Between two rests a shaft turns at a pace for so many rows, from 0.5 on to 0.5 before its last angle. */
+static bool is_slow_between_rests(size_t rows, double pace, double last_rad)
+{
+    const hci_run one = columns_make(200);
+    for (size_t k = 100; k < 200; ++k)
+        angle_rad[k] = last_rad;
+    for (size_t k = 0; k < rows; ++k) {
+        angle_rad[100 + k] = last_rad * (0.05 + 0.9 * (double)k / (double)(rows - 1));
+        way_speed[100 + k] = k % 3 ? pace : -pace;
+    }
+    currents_set(200);
+    return hci_is_slow(&one, P);
+}
+
+/* What it does while it moves, forward or back, of 16 rows or more; of fewer all rows are asked, of which it
+ * stands for most. */
+static void test_how_slow_a_shaft_is_while_it_moves(void)
+{
+    for (int sign = -1; sign <= 1; sign += 2) {
+        TEST_ASSERT_FALSE(is_slow_between_rests(16, 10.0, sign * 10.0));
+        TEST_ASSERT_TRUE(is_slow_between_rests(15, 10.0, sign * 10.0));
+        TEST_ASSERT_TRUE(is_slow_between_rests(40, 0.99 * HCI_SLOW_TURN_RAD_PER_S, sign * 10.0));
+        TEST_ASSERT_FALSE(is_slow_between_rests(40, 1.01 * HCI_SLOW_TURN_RAD_PER_S, sign * 10.0));
+    }
+}
+
+/* From a tenth of a radian on it has moved: 0.05 of 2.2 and of 1.8 at either end. */
+static void test_when_a_shaft_has_moved(void)
+{
+    for (int more = 0; more < 2; ++more) {
+        const double last_rad = more ? 2.2 : 1.8;
+        TEST_ASSERT_EQUAL(!more, is_slow_between_rests(16, 10.0, last_rad)); /* 14 of 16 rows */
+        TEST_ASSERT_FALSE(is_slow_between_rests(18, 10.0, last_rad));
+    }
+}
+
+static bool goes_both_ways(double up_rad, double down_rad)
+{
+    const hci_run one = columns_make(400);
+    for (size_t k = 0; k < 400; ++k) {
+        angle_rad[k] =
+            3.0 + (k < 200 ? up_rad * (double)k / 199.0 : up_rad - down_rad * (double)(k - 200) / 199.0);
+        way_speed[k] = 0.5;
+    }
+    currents_set(400);
+    return hci_is_slow_turn_both_ways(&one, P);
+}
+
+/* Half an electrical period there and half of one back. */
+static void test_how_far_both_ways(void)
+{
+    const double half_rad = HCI_PI / P;
+    TEST_ASSERT_TRUE(goes_both_ways(1.01 * half_rad, 1.01 * half_rad));
+    TEST_ASSERT_FALSE(goes_both_ways(0.99 * half_rad, 3.0 * half_rad));
+    TEST_ASSERT_FALSE(goes_both_ways(3.0 * half_rad, 0.99 * half_rad));
+    TEST_ASSERT_TRUE(goes_both_ways(-1.01 * half_rad, -3.0 * half_rad));
+    TEST_ASSERT_FALSE(goes_both_ways(-0.99 * half_rad, -3.0 * half_rad));
+}
+
+/* Rows that go on by 0.01 rad, and back over the first rows that often; every fifth row stays. */
+static bool has_direction(size_t rows, size_t turns)
+{
+    hci_run one = columns_make(rows);
+    double step = 0.01;
+    for (size_t k = 1, left = turns; k < rows; ++k) {
+        if (left > 0 && k > 1 && k % 5 != 0 && k % 5 != 1) {
+            step = -step;
+            --left;
+        }
+        angle_rad[k] = angle_rad[k - 1] + (k % 5 == 0 ? 0.0 : step);
+    }
+    one.time_s = one.speed_rad_per_s = NULL;
+    memset(&one.remark, 0, sizeof one.remark);
+    TEST_ASSERT_TRUE(hci_row_direction_set(&one));
+    if (!one.speed_rad_per_s) return false;
+    double before = 0.0;
+    for (size_t k = 0; k < rows; ++k) {
+        const size_t at = k + 1 < rows ? k : k - 1;
+        const double way = angle_rad[at + 1] - angle_rad[at];
+        before = way > 0.0 ? 0.1 : way < 0.0 ? -0.1 : before;
+        TEST_ASSERT_EQUAL_DOUBLE(before, one.speed_rad_per_s[k]);
+    }
+    hci_memory_free(one.speed_rad_per_s);
+    return true;
+}
+
+/* One row in twenty may turn back, of 16 rows or more. */
+static void test_how_often_rows_turn_back(void)
+{
+    TEST_ASSERT_TRUE(has_direction(16, 0));
+    TEST_ASSERT_FALSE(has_direction(15, 0));
+    TEST_ASSERT_TRUE(has_direction(110, 5));
+    TEST_ASSERT_FALSE(has_direction(110, 6));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -317,5 +438,9 @@ int main(void)
     RUN_TEST(test_late_stamps_are_no_sticking);
     RUN_TEST(test_a_turn_forward_and_back_is_found);
     RUN_TEST(test_what_accelerates_is_taken_out);
+    RUN_TEST(test_how_slow_a_shaft_is_while_it_moves);
+    RUN_TEST(test_when_a_shaft_has_moved);
+    RUN_TEST(test_how_far_both_ways);
+    RUN_TEST(test_how_often_rows_turn_back);
     return UNITY_END();
 }
