@@ -386,6 +386,62 @@ static void test_how_far_both_ways(void)
     TEST_ASSERT_FALSE(goes_both_ways(-0.99 * half_rad, -3.0 * half_rad));
 }
 
+/* Of a motor of many poles half a period is short; one way is one way. */
+static void test_one_way_of_many_poles(void)
+{
+    hci_run one = columns_make(200);
+    for (int sign = -1; sign <= 1; sign += 2) {
+        for (size_t k = 0; k < 200; ++k)
+            angle_rad[k] = sign * 0.01 * (double)k;
+        currents_set(200);
+        TEST_ASSERT_TRUE(hci_is_slow(&one, 14));
+        TEST_ASSERT_FALSE(hci_is_slow_turn_both_ways(&one, 14));
+    }
+}
+
+/* A current of noise, that is none, where samples are near each other; where they are not, it may be one:
+ * 2π/48 electrical from one to the next. */
+static void test_noise_of_near_samples_is_no_current(void)
+{
+    for (int near = 0; near < 2; ++near) {
+        hci_run one = columns_make(N);
+        const double step_rad = 2.0 * HCI_PI / 48.0 / P * (near ? 0.99 : 1.01);
+        uint64_t seed = 5;
+        for (size_t k = 0; k < N; ++k)
+            angle_rad[k] = step_rad * (double)(k % 2);
+        for (size_t k = 0; k < N; ++k) {
+            const hci_dq noise = {.d = ref_normal(&seed), .q = ref_normal(&seed)};
+            hci_phases_of_dq(noise, P * angle_rad[k], &phases_A[3 * k]);
+        }
+        TEST_ASSERT_EQUAL(!near, hci_is_slow(&one, P));
+        currents_set(N);
+        TEST_ASSERT_TRUE(hci_is_slow(&one, P));
+    }
+}
+
+/* i_q of each row less a constant, or less what accelerates: rms 3 of 10 N·m. */
+static void test_what_is_taken_from_the_current(void)
+{
+    static double torque_Nm[N];
+    hci_run one = columns_make(100);
+    one.torque_Nm = torque_Nm;
+    for (size_t k = 0; k < 100; ++k) {
+        angle_rad[k] = 0.01 * (double)k;
+        torque_Nm[k] = k % 4 < 2 ? 3.0 : -3.0;
+        hci_phases_of_dq((hci_dq){.d = 0.7, .q = k % 2 ? 12.0 : 2.0}, P * angle_rad[k], &phases_A[3 * k]);
+    }
+    hci_slow_turn_take_constant(&one, P, 1.5);
+    for (size_t k = 0; k < 100; ++k) {
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, k % 2 ? 10.5 : 0.5, hci_run_dq(&one, P, k).q);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.7, hci_run_dq(&one, P, k).d);
+    }
+    hci_slow_turn_correct(&one, P, 2.0);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 3.0 / 10.0, one.inertia_share);
+    for (size_t k = 0; k < 100; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, (k % 2 ? 10.5 : 0.5) - (k % 4 < 2 ? 1.5 : -1.5),
+                                  hci_run_dq(&one, P, k).q);
+}
+
 /* Rows that go on by 0.01 rad, and turn back that often, some of them behind a row that stays. */
 static bool has_direction(size_t rows, size_t turns)
 {
@@ -441,6 +497,9 @@ int main(void)
     RUN_TEST(test_how_slow_a_shaft_is_while_it_moves);
     RUN_TEST(test_when_a_shaft_has_moved);
     RUN_TEST(test_how_far_both_ways);
+    RUN_TEST(test_one_way_of_many_poles);
+    RUN_TEST(test_noise_of_near_samples_is_no_current);
+    RUN_TEST(test_what_is_taken_from_the_current);
     RUN_TEST(test_how_often_rows_turn_back);
     return UNITY_END();
 }
