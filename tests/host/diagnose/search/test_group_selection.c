@@ -466,6 +466,33 @@ static void test_a_few_that_stand_anywhere(void)
     }
 }
 
+/* And of two terms each, of which the second sees the same in samples of its own. */
+static void test_a_few_of_two_terms(void)
+{
+    for (size_t n = 0; n < BLOCK_ORDERS; ++n)
+        offer("back_emf", 1, BLOCK_ORDER[n], 0.0);
+    blocks_record(1000.0);
+    const hci_normal_equations one = normal;
+    memset(&normal, 0, sizeof normal);
+    list.count = 0;
+    for (size_t n = 0; n < BLOCK_ORDERS; ++n)
+        offer("back_emf", 2, BLOCK_ORDER[n], 2.0 * log((double)BLOCK_ROWS));
+    problem_start();
+    normal.rows = one.rows;
+    normal.square = 2.0 * one.square;
+    memset(normal.gram, 0, normal.n * normal.n * sizeof *normal.gram);
+    for (size_t i = 0; i < normal.n; ++i) {
+        normal.moment[i] = one.moment[i / 2];
+        for (size_t j = i % 2; j < normal.n; j += 2)
+            normal.gram[i * normal.n + j] = one.gram[i / 2 * one.n + j / 2];
+    }
+    hci_normal_equations copy = one;
+    hci_normal_equations_release(&copy);
+    choose_of("back_emf", "back_emf");
+    TEST_ASSERT_TRUE(in[1] && in[2] && in[3]);
+    TEST_ASSERT_EQUAL_UINT64(3, chosen());
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -478,6 +505,7 @@ int main(void)
     RUN_TEST(test_against_all_subsets);
     RUN_TEST(test_a_few_in_place_of_others_that_imitate_them);
     RUN_TEST(test_a_few_that_stand_anywhere);
+    RUN_TEST(test_a_few_of_two_terms);
     RUN_TEST(test_what_one_more_must_bring);
     RUN_TEST(test_how_many_come_in);
     RUN_TEST(test_what_becomes_superfluous_leaves_with_all_its_terms);
