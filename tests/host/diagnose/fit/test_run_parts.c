@@ -126,7 +126,8 @@ static void test_parts_of_a_run_make_it_up(void)
     hci_note note = {{0}};
     runs_set(3, 2, HCI_TORQUE_MEASURED);
     segments_set();
-    TEST_ASSERT_EQUAL(HCI_OK, hci_run_parts_each(&regression, hci_run_parts(&regression, 2), visit, &v, &note));
+    TEST_ASSERT_EQUAL(HCI_OK,
+                      hci_run_parts_each(&regression, hci_run_parts(&regression, 2), visit, &v, &note));
     TEST_ASSERT_EQUAL(4, v.count);
     for (size_t k = 0; k < SEGMENTS; ++k) {
         size_t next[] = {segment[k].first, segment[k].first};
@@ -157,7 +158,8 @@ static void test_whole_runs_keep_their_turns(void)
     runs_set(4, 4, HCI_TORQUE_MEASURED);
     use[1] = false;
     segments_set();
-    TEST_ASSERT_EQUAL(HCI_OK, hci_run_parts_each(&regression, hci_run_parts(&regression, 2), visit, &v, &note));
+    TEST_ASSERT_EQUAL(HCI_OK,
+                      hci_run_parts_each(&regression, hci_run_parts(&regression, 2), visit, &v, &note));
     TEST_ASSERT_EQUAL(3, v.count);
     TEST_ASSERT_EQUAL(0, v.run[0]);
     TEST_ASSERT_EQUAL(2, v.run[1]);
@@ -176,8 +178,9 @@ static void test_behind_the_last_run(void)
     run[0].torque_source = run[3].torque_source = HCI_TORQUE_HOLDING;
     segments_set();
     samples.run_count = 3;
-    TEST_ASSERT_EQUAL(3, hci_run_parts(&regression));
-    TEST_ASSERT_EQUAL(HCI_OK, hci_run_parts_each(&regression, visit, &v, &note));
+    TEST_ASSERT_EQUAL(3, hci_run_parts(&regression, 2));
+    TEST_ASSERT_EQUAL(HCI_OK,
+                      hci_run_parts_each(&regression, hci_run_parts(&regression, 2), visit, &v, &note));
     TEST_ASSERT_EQUAL(9, v.count);
     TEST_ASSERT_EQUAL(2, v.run[8]);
 }
@@ -188,10 +191,12 @@ static void test_a_failure_ends_it(void)
     hci_note note = {{0}};
     runs_set(3, 3, HCI_TORQUE_MEASURED);
     segments_set();
-    TEST_ASSERT_EQUAL(HCI_ERROR_NUMERIC, hci_run_parts_each(&regression, hci_run_parts(&regression, 2), visit, &v, &note));
+    TEST_ASSERT_EQUAL(HCI_ERROR_NUMERIC,
+                      hci_run_parts_each(&regression, hci_run_parts(&regression, 2), visit, &v, &note));
     TEST_ASSERT_EQUAL(2, v.count);
     hci_memory_fail_after(0);
-    TEST_ASSERT_EQUAL(HCI_ERROR_MEMORY, hci_run_parts_each(&regression, hci_run_parts(&regression, 2), visit, &v, &note));
+    TEST_ASSERT_EQUAL(HCI_ERROR_MEMORY,
+                      hci_run_parts_each(&regression, hci_run_parts(&regression, 2), visit, &v, &note));
     TEST_ASSERT_EQUAL(2, v.count);
 }
 
