@@ -141,6 +141,21 @@ for kind in abc dq; do
         [ "$(grep -cE 'begin again with|angle-offset [-0-9.]+ takes it out|subtract .* from the electrical angle' "$work/stdout")" -eq 0 ]
 done
 
+# ---- a motor that brakes: the current vector is mirrored about d, and the ripple of its torque has the other sign
+
+braking() { # FILE CURRENT_A AHEAD SEED: ripple of 26 and 40 a turn in proportion to the torque, as of magnets that differ
+    awk -v i="$2" -v ahead="$3" -v seed="$4" 'BEGIN { srand(seed); turn = 6.283185307179586; w = 10
+        print "time_s,theta_m_rad,speed_rad_per_s,ia_A,ib_A,ic_A,torque_Nm"
+        for (k = 0; k < 8000; ++k) { t = k / 2000; x = w * t; a = 3 * x; T = 1.5 * 3 * (0.08 + 0.0018 * i * sin(ahead)) * i * cos(ahead) * (1 + 0.03 * sin(26 * x + 1) + 0.02 * sin(40 * x))
+            row = sprintf("%.5f,%.6f,%.4f", t, x, w)
+            for (c = 0; c < 3; ++c) row = row sprintf(",%.4f", i * sin(a - c * turn / 3 + ahead) + 0.1 * (rand() - 0.5))
+            print row sprintf(",%.5f", T + 0.02 * (rand() - 0.5)) } }' >"$1"
+}
+braking drive.csv 60 0.5 11
+braking brake.csv -60 -0.5 12
+run 0 check unsaid drive.csv brake.csv
+says '^consistent'
+
 # ---- of torques over i_d and i_q alone no angle is corrected: a map whose axes lie 2 degrees off
 
 awk 'BEGIN { srand(9); print "I_d,I_q,T"; for (i = 10; i <= 60; i += 10) for (b = -0.3; b < 1.3; b += 0.3) { d = -i * sin(b); q = i * cos(b); D = -i * sin(b + 0.035); Q = i * cos(b + 0.035)

@@ -261,11 +261,13 @@ static bool is_shifted(const run_zeros *z, check_run *a, check_run *b, int leave
            fabs(shift->shift_rad) > (leave > 0 ? 0.0 : LEAST_SHIFT_rad) + LATE_s * fabs(apart);
 }
 
-/* Whether orders that no current makes lie elsewhere in the turn. */
+/* Whether orders that no current makes lie elsewhere in the turn. What a torque makes of them, one the other way
+ * makes with the other sign, which looks like a place half a period on. */
 static bool lie_elsewhere(const run_zeros *z, const check_run *a, const check_run *b)
 {
     check_ripple_shift shift;
     check_run *run = z->data->run;
+    if (torque_per_ampere(z, a) * torque_per_ampere(z, b) < 0.0) return false;
     return is_shifted(z, &run[a - run], &run[b - run], (int)z->data->value[CHECK_pole_pairs], NOT_ALIKE,
                       &shift);
 }
