@@ -74,13 +74,45 @@ static double open_swing_Nm(const cli_tuning *t)
     return most_Nm - least_Nm;
 }
 
+/* Times the ripple that a recording shows, for the square of the current: a model that does not explain the
+ * recordings and makes more for a plain sine is worse than none. */
+#define UNLIKE 2.0
+
+/* Whether the model has a ripple that no recording shows; x: out, the one that shows most. */
+static bool is_unlike_recorded(const cli_tuning *t, cli_tune_ripple *x, double *before_Nm)
+{
+    double after_Nm;
+    if (!hci_expected_ripple_is_doubtful(&t->solution.expected) || !hci_tuning_knows_ripple(&t->solution))
+        return false;
+    *x = cli_tune_recorded_ripple(t);
+    cli_tune_swing_of(t, before_Nm, &after_Nm);
+    const double larger = x->current_A > 0.0 ? fmax(t->solution.plain_amplitude_A / x->current_A, 1.0) : 0.0;
+    return x->run < t->runs.count && larger > 0.0 &&
+           *before_Nm > UNLIKE * larger * larger * x->peak_to_peak_Nm;
+}
+
+static void say_unlike(const cli_tuning *t, const cli_tune_ripple *x, double before_Nm, char *text,
+                       size_t size)
+{
+    snprintf(
+        text, size,
+        "The model does not explain the recordings: a plain sine of %.3g A makes a ripple of %.2g N·m from "
+        "peak to peak in it, and %.120s shows %.2g N·m at %.3g A. No table was written: begin with the logs "
+        "of one load and those without a current",
+        t->solution.plain_amplitude_A, before_Nm, cli_tune_name_of(t, x->run), x->peak_to_peak_Nm,
+        x->current_A);
+}
+
 void cli_tune_judge_size(cli_tuning *t)
 {
+    cli_tune_ripple recorded;
+    double before_Nm;
     const double rated_Nm = cli_tune_rated_Nm(t);
     if (!t->is_solved) return;
     t->open_swing_Nm = open_swing_Nm(t);
     t->usual_A = usual_A(t);
     if ((rated_Nm > 0.0 && t->open_swing_Nm > EXCESS_RATED * rated_Nm) || is_against(&t->solution) ||
+        is_unlike_recorded(t, &recorded, &before_Nm) ||
         t->solution.peak_phase_current_A > EXCESS_CURRENT * t->usual_A)
         t->size = CLI_TUNE_EXCESS;
     else if (rated_Nm > 0.0 && t->open_swing_Nm > LARGE_COGGING * rated_Nm)
@@ -90,6 +122,8 @@ void cli_tune_judge_size(cli_tuning *t)
 void cli_tune_say_excess(const cli_tuning *t, char *text, size_t size)
 {
     const double rated_Nm = cli_tune_rated_Nm(t);
+    cli_tune_ripple recorded;
+    double before_Nm;
     const char *unit = load_A(t) > 0.0 || t->runs.count == 0 ? "torque, currents and Kv" : "torque and Kv";
     for (size_t k = 0; k < t->runs.count; ++k)
         if (t->runs.run[k].torque_source != HCI_TORQUE_MEASURED) unit = "currents and Kv";
@@ -105,6 +139,8 @@ void cli_tune_say_excess(const cli_tuning *t, char *text, size_t size)
                  "none of a motor: the model does not hold so far from what was recorded. No table was "
                  "written: --torque with less, or logs at several loads up to that torque",
                  t->mean_Nm);
+    else if (is_unlike_recorded(t, &recorded, &before_Nm))
+        say_unlike(t, &recorded, before_Nm, text, size);
     else if (t->arguments->given[TUNE_TORQUE] && t->solution.plain_amplitude_A > EXCESS_CURRENT * t->usual_A)
         snprintf(text, size,
                  "A torque of %.4g N·m would take a sine of %.3g A, %.3g times the %.3g A that %s: is "

@@ -147,9 +147,11 @@ static void append_of_drive_zero(cli_tuning *t)
     else if (fabs(t->drive_zero_deg) > 0.0)
         cli_tune_caveat(
             t,
-            "The phase currents lie %.1f degrees beside the i_q of this angle: where the drive keeps its i_d "
-            "at 0 the electrical zero is off, and --angle-offset %.1f is right; the torques alone, within "
-            "%.0f degrees, do not tell it",
+            "The phase currents lie %.1f degrees beside the i_q of this angle: with an i_d that the drive "
+            "asks "
+            "for, as for a salient rotor, nothing is off; where it keeps its i_d at 0 the electrical zero "
+            "is, "
+            "and --angle-offset %.1f is right; the torques alone, within %.0f degrees, do not tell it",
             fabs(t->drive_zero_deg), cli_tune_offset_to_give(t, t->drive_zero_deg), t->drive_zero_reach_deg);
 }
 
