@@ -27,11 +27,12 @@ static void show_before_and_after(const cli_tuning *t)
     const hci_solution *s = &t->solution;
     const hci_expected_ripple *e = &s->expected;
     double before_Nm, after_Nm;
-    char expected[64] = "not known";
+    char expected[96] = "not known";
     cli_tune_swing_of(t, &before_Nm, &after_Nm);
     if (e->state == HCI_RIPPLE_KNOWN && !cli_tune_is_boundless(t))
-        snprintf(expected, sizeof expected, "at most %.3g N·m (95 %%)",
-                 hci_ripple_bound_as_said(e->peak_to_peak_Nm));
+        snprintf(expected, sizeof expected, "at most %.3g N·m (95 %%)%s",
+                 hci_ripple_bound_as_said(e->peak_to_peak_Nm),
+                 e->if_in_time ? " if the torque sensor is in time" : "");
     if (after_Nm < s->tolerance_Nm) after_Nm = 0.0;
     cli_say("                              plain sine   with the table   to expect on the machine\n");
     if (!hci_tuning_knows_ripple(s))

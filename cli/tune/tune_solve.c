@@ -8,6 +8,7 @@
 #include "cli/terminal/progress.h"
 #include "cli/tune/tune_commands.h"
 #include "cli/tune/tune_cover.h"
+#include "cli/tune/tune_facts.h"
 #include "cli/tune/tune_options.h"
 #include "cli/tune/tune_recorded.h"
 #include "cli/tune/tune_waveforms.h"
@@ -363,6 +364,7 @@ hci_status cli_tune_solve(cli_tuning *t, hci_note *note)
     status = open_torque(t, note);
     if (status || is_out_of_reach) return status;
     t->is_solved = true;
+    t->solution.expected.if_in_time = cli_tune_hangs_on_lag(t);
     t->tuning.solution = &t->solution;
     return hci_solution_write_with_report(&t->corrected, &t->solution, t->tuning.solved,
                                           &(hci_report_sources){.machine = machine, .target = target}, folder,

@@ -290,7 +290,8 @@ static hci_expected_ripple nothing(hci_ripple_state state)
                                  NAN,
                                  0.0,
                                  0.0,
-                                 0.0};
+                                 0.0,
+                                 false};
 }
 
 static double largest_torque_Nm(const hci_ripple_path *path)

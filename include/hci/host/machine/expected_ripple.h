@@ -49,6 +49,8 @@ typedef struct {
                                    * they were solved */
     double loop_peak_to_peak_Nm;  /* the part that a current loop adds; 0: currents that flow as they are */
     double left_peak_to_peak_Nm;  /* the part that only what the model leaves of its recordings asks for */
+    bool if_in_time; /* all of it is of a torque sensor that is in time, which recordings of one speed do not
+                      * tell; set by whom the recordings are known to */
 } hci_expected_ripple;
 
 /* The same with a table that the currents were cut to. table_Nm: peak to peak, of the torque with the table

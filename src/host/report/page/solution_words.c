@@ -106,6 +106,8 @@ static void cell_of_bound(char text[CELL_SIZE], const hci_solution_page *p)
                  hci_ripple_bound_as_said(s->expected.T_ripple_percent));
     else
         snprintf(text + strlen(text), CELL_SIZE - strlen(text), "|95 %%");
+    if (s->expected.if_in_time)
+        snprintf(text + strlen(text), CELL_SIZE - strlen(text), ", if the torque sensor is in time");
 }
 
 static void row_of(hci_output *out, const char *name, const char *before, const char *after,
