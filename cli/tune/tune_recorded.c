@@ -43,6 +43,27 @@ static bool is_braked(const hci_run *r)
     return r->torque_source == HCI_TORQUE_HOLDING && hci_run_is_loaded(r, r->pole_pairs);
 }
 
+#define TURNS 0.9 /* of the length of the current, that its mean in the rotor frame has */
+
+static double turning_A(const hci_run *r)
+{
+    hci_dq mean = {0.0, 0.0, 0.0};
+    for (size_t k = 0; r->theta_m_rad && k < r->count; ++k) {
+        const hci_dq i = hci_park(hci_clarke(r->i_A + 3 * k), r->pole_pairs * r->theta_m_rad[k]);
+        mean.d += i.d / (double)r->count, mean.q += i.q / (double)r->count;
+    }
+    const double length_A = hypot(mean.d, mean.q);
+    return length_A > TURNS * sqrt(2.0) * cli_tune_rms_A(r) ? length_A : 0.0;
+}
+
+double cli_tune_turning_A(const cli_tuning *t)
+{
+    double most_A = 0.0;
+    for (size_t k = 0; k < t->runs.count; ++k)
+        if (t->runs.run[k].i_A) most_A = fmax(most_A, turning_A(&t->runs.run[k]));
+    return most_A;
+}
+
 bool cli_tune_has_no_current(const cli_tuning *t, const hci_run *r)
 {
     const double rms_A = cli_tune_rms_A(r);

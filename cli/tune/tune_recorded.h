@@ -8,6 +8,10 @@
 /* rms of a phase, over the three. */
 double cli_tune_rms_A(const hci_run *run);
 
+/* The largest current that turns with the rotor in a recording, as noise and zeros of sensors do not: the
+ * length of its mean in the rotor frame, where that is most of it; 0: none does. O(samples). */
+double cli_tune_turning_A(const cli_tuning *tune);
+
 /* None, or what a sensor of current makes of none. */
 bool cli_tune_has_no_current(const cli_tuning *tune, const hci_run *run);
 

@@ -103,6 +103,26 @@ static void say_unlike(const cli_tuning *t, const cli_tune_ripple *x, double bef
         x->current_A);
 }
 
+/* Times the largest recorded current: a bench does not stay so far below what is rated. */
+#define MUCH_RECORDED 100.0
+
+/* Whether the table has currents of a rating that is in mA. */
+static bool is_of_milliampere(const cli_tuning *t)
+{
+    const double most_A = MUCH_RECORDED * cli_tune_turning_A(t);
+    return t->arguments->given[TUNE_CURRENT] && most_A > 0.0 && t->declared.rated_current_A > most_A &&
+           t->solution.peak_phase_current_A > EXCESS_CURRENT / MUCH_RECORDED * most_A;
+}
+
+static void say_milliampere(const cli_tuning *t, char *text, size_t size)
+{
+    const double rated_A = t->declared.rated_current_A, load_A = cli_tune_turning_A(t);
+    snprintf(text, size,
+             "A rated current of %.4g A is %.0f times the largest that was recorded, %.3g A: is it in mA "
+             "(--rated-current %.4g)? No table was written",
+             rated_A, rated_A / load_A, load_A, rated_A / 1000.0);
+}
+
 void cli_tune_judge_size(cli_tuning *t)
 {
     cli_tune_ripple recorded;
@@ -112,7 +132,7 @@ void cli_tune_judge_size(cli_tuning *t)
     t->open_swing_Nm = open_swing_Nm(t);
     t->usual_A = usual_A(t);
     if ((rated_Nm > 0.0 && t->open_swing_Nm > EXCESS_RATED * rated_Nm) || is_against(&t->solution) ||
-        is_unlike_recorded(t, &recorded, &before_Nm) ||
+        is_of_milliampere(t) || is_unlike_recorded(t, &recorded, &before_Nm) ||
         t->solution.peak_phase_current_A > EXCESS_CURRENT * t->usual_A)
         t->size = CLI_TUNE_EXCESS;
     else if (rated_Nm > 0.0 && t->open_swing_Nm > LARGE_COGGING * rated_Nm)
@@ -139,6 +159,8 @@ void cli_tune_say_excess(const cli_tuning *t, char *text, size_t size)
                  "none of a motor: the model does not hold so far from what was recorded. No table was "
                  "written: --torque with less, or logs at several loads up to that torque",
                  t->mean_Nm);
+    else if (is_of_milliampere(t))
+        say_milliampere(t, text, size);
     else if (is_unlike_recorded(t, &recorded, &before_Nm))
         say_unlike(t, &recorded, before_Nm, text, size);
     else if (t->arguments->given[TUNE_TORQUE] && t->solution.plain_amplitude_A > EXCESS_CURRENT * t->usual_A)
