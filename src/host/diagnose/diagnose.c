@@ -461,12 +461,13 @@ static void loose_swings_judge(hci_diagnosis *d)
     hci_uncertainty_release(&d->uncertainty);
 }
 
-/* A torque that drifts where the model lacks nothing else: whether the sensor does, or what brakes, no recording
- * says. */
+/* A torque that drifts where the model lacks nothing else: whether the sensor does, or what brakes, no
+ * recording says. */
 static void drifts_judge(hci_diagnosis *d)
 {
     if (d->drifts == 0 || d->verdict != HCI_DIAGNOSIS_COMPLETE) return;
     d->verdict = HCI_DIAGNOSIS_UNKNOWN;
+    hci_finding_unknown_put(d, d->drift_Nm / sqrt(12.0), "that drifts, which was taken out");
     hci_uncertainty_release(&d->uncertainty);
 }
 

@@ -140,9 +140,9 @@ static const char *left_words(const hci_attribution *a)
                                            : "that no known effect explains";
 }
 
-/* What no effect explains goes first, in place of what the search says of it. */
-static void unknown_put(const hci_attribution *a, double whole_Nm2, hci_diagnosis *d)
+void hci_finding_unknown_put(hci_diagnosis *d, double unexplained_Nm, const char *words)
 {
+    const double whole_Nm2 = d->rms_before_Nm * d->rms_before_Nm;
     hci_finding *f = &d->finding[0];
     size_t at = 0;
     while (at < d->findings && strcmp(d->finding[at].effect, hci_empirical_type.name) != 0)
@@ -150,8 +150,8 @@ static void unknown_put(const hci_attribution *a, double whole_Nm2, hci_diagnosi
     assert(at < d->findings);
     memmove(f + 1, f, at * sizeof *f);
     *f = (hci_finding){hci_empirical_type.name, HCI_FINDING_ADDED, NAN, f->stays, f->left_out, NAN, ""};
-    if (whole_Nm2 > 0.0) f->residual_share = a->unexplained_Nm * a->unexplained_Nm / whole_Nm2;
-    snprintf(f->detail, sizeof f->detail, "rms %.3g N·m %s", a->unexplained_Nm, left_words(a));
+    if (whole_Nm2 > 0.0) f->residual_share = unexplained_Nm * unexplained_Nm / whole_Nm2;
+    snprintf(f->detail, sizeof f->detail, "rms %.3g N·m %s", unexplained_Nm, words);
 }
 
 /* Whether an effect with a name is in the model. */
@@ -182,7 +182,7 @@ void hci_findings_fill(const hci_attribution *a, hci_diagnosis *d)
         const hci_finding f = finding_of(a, &a->verdict[r], whole_Nm2);
         finding_put(d, &f);
     }
-    if (a->unknown) unknown_put(a, whole_Nm2, d);
+    if (a->unknown) hci_finding_unknown_put(d, a->unexplained_Nm, left_words(a));
     d->inertia_as_well = a->inertia_as_well;
     d->sensors_as_well = a->sensors_as_well;
     d->magnetic_only = a->magnetic_only;

@@ -236,10 +236,11 @@ static void test_quantities(void)
     static const struct {
         double value;
         const char *unit, *text;
-    } CASE[] = {{1.23456, "N·m", "1.235 N·m"}, {1e-4, "N·m", "0.0001 N·m"}, {0.99e-4, "N·m", "99 µN·m"},
-                {1e-12, "N·m", "1 pN·m"},      {0.9e-12, "N·m", "0 N·m"},   {-0.9e-12, "N·m", "0 N·m"},
-                {12.345, "%", "12.3 %"},       {-1.2345, "×", "−1.23 ×"},   {0.9e-9, "%", "0 %"},
-                {1.1e-9, "×", "1.1e−9 ×"},     {0.0256, "A", "25.6 mA"},    {-1.23456e3, "N·m", "−1235 N·m"}};
+    } CASE[] = {
+        {1.23456, "N·m", "1.235 N·m"}, {1.01e-5, "N·m", "0.0000101 N·m"}, {0.99e-5, "N·m", "9.9 µN·m"},
+        {1e-12, "N·m", "1 pN·m"},      {0.9e-12, "N·m", "0 N·m"},         {-0.9e-12, "N·m", "0 N·m"},
+        {12.345, "%", "12.3 %"},       {-1.2345, "×", "−1.23 ×"},         {0.9e-9, "%", "0 %"},
+        {1.1e-9, "×", "1.1e−9 ×"},     {0.0256, "A", "0.0256 A"},         {-1.23456e3, "N·m", "−1235 N·m"}};
     for (size_t k = 0; k < sizeof CASE / sizeof CASE[0]; ++k) {
         char text[HCI_HTML_NUMBER_SIZE], plain[HCI_HTML_NUMBER_SIZE] = "";
         hci_html_quantity_text(text, CASE[k].value, CASE[k].unit);

@@ -95,7 +95,7 @@ static void test_what_is_told(void)
     hci_svg_tell_value(out, ", x ", NAN, "A");
     hci_svg_strip(out, &(hci_svg_box){1.0, 2.0, 4.0, 8.0});
     is_written(
-        "<g><title>a&#38; b, n 12.5 rpm, θ 0.05°, k 0.05, t 0.05 ms, s 0.05 %, f 0.05 ×, i 50 mA</title>\n"
+        "<g><title>a&#38; b, n 12.5 rpm, θ 0.05°, k 0.05, t 0.05 ms, s 0.05 %, f 0.05 ×, i 0.05 A</title>\n"
         "<rect class=\"hit\" x=\"1.00\" y=\"2.00\" width=\"3.00\" height=\"6.00\"/>\n</g>\n");
 }
 

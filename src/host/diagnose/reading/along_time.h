@@ -6,7 +6,19 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_READING_ALONG_TIME_H
 #define HCI_SRC_HOST_DIAGNOSE_READING_ALONG_TIME_H
 
-#include "host/diagnose/reading/predicted_reading.h"
+#include "host/diagnose/reading/predicted_rows.h"
+
+/* The mean of a steady turn is run through so many times at most, so that a slow sensor settles. */
+enum { HCI_SETTLING_TURNS = 4 };
+
+#define HCI_SETTLED 16.0 /* time constants, after which 1e-7 is left */
+
+/* How long a sensor with such dynamics takes to settle; 0 without any, INFINITY where it never does. */
+double hci_settling_s(const hci_effects *effects);
+
+/* Samples of the turns before the mean of a steady one that take so long, at most all but one of
+ * HCI_SETTLING_TURNS. sample: of the segment. */
+size_t hci_settling_samples(const hci_binned_sample *sample, const hci_segment *segment, double settling_s);
 
 unsigned hci_effect_traits(const hci_effect *effect, size_t term);
 

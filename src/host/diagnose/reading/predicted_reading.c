@@ -5,7 +5,6 @@
 
 #include "host/base/memory.h"
 #include "host/diagnose/prepare/turns.h"
-#include "host/diagnose/reading/along_time.h"
 #include "host/diagnose/reading/between_samples.h"
 #include "host/diagnose/reading/shorter_list.h"
 #include "host/diagnose/reading/wide_bins.h"
@@ -17,6 +16,11 @@
 #define ROUNDING_OF_MEAN 1e-9 /* of the mean size of a derivative, that a mean of 0 has */
 #define SAME_SCALE       1e-6 /* departure of a torque per ampere that is rounding */
 #define LARGEST_SCALE    1e3  /* of a torque per ampere that has vanished */
+
+enum {
+    LESS_BETWEEN = 3 /* a place between samples is so small a part of the work of one: few samples are no
+                      * reason to look at a list less far */
+};
 
 enum { ANGLES_OF_MEAN = 97 /* a prime: evenly spread over the electrical and the mechanical turn */ };
 
@@ -419,7 +423,7 @@ static void parts_close(const hci_regression *e, const hci_segment *s, size_t pa
 static void fill(const hci_regression *e, const hci_effects *effects, const hci_segment *s, size_t parts,
                  hci_predicted_reading *o)
 {
-    o->asked = s->count * parts;
+    o->asked = s->count + s->count * (parts - 1) / LESS_BETWEEN;
     fill_static(e, effects, s, parts, o);
     if (parts > 1)
         fill_between(e, effects, s, parts, o);

@@ -12,43 +12,8 @@
 #ifndef HCI_SRC_HOST_DIAGNOSE_READING_PREDICTED_READING_H
 #define HCI_SRC_HOST_DIAGNOSE_READING_PREDICTED_READING_H
 
-#include "host/diagnose/reading/regression.h"
-
-/* The mean of a steady turn is run through so many times at most, so that a slow sensor settles. */
-enum { HCI_SETTLING_TURNS = 4 };
-
-#define HCI_SETTLED 16.0 /* time constants, after which 1e-7 is left */
-
-/* How long a sensor with such dynamics takes to settle; 0 without any, INFINITY where it never does. */
-double hci_settling_s(const hci_effects *effects);
-
-/* Samples of the turns before the mean of a steady one that take so long, at most all but one of
- * HCI_SETTLING_TURNS. sample: of the segment. */
-size_t hci_settling_samples(const hci_binned_sample *sample, const hci_segment *segment, double settling_s);
-
-/* Long enough for the longest segment with its repetitions. Start with {0}. */
-typedef struct {
-    double *torque_Nm;
-    double *by_value; /* [samples][terms], derivatives by the values of all terms; NULL: not wanted */
-    double *time_s;
-    double *sum;         /* [2 terms], for means */
-    double *row;         /* [2 (terms + 1)], for means over bins */
-    double *work;        /* [2 samples], for slopes */
-    hci_effects present; /* what of the effects makes a torque, and what of the readings */
-    hci_effect *present_effect;
-    hci_effect_term *present_term;
-    bool instant; /* wanted as it is at each sample, not as a slope shows it */
-    bool apart;   /* wanted: derivatives at a scale of the current's torque that stays as it is */
-    size_t terms;
-    double finest_order; /* of a model whose sensor answers along time; NAN: it does not */
-    size_t asked;        /* out: samples and places between them that the model was asked at, of a segment */
-    size_t filtered; /* out: samples that went through a stage of a torque sensor, those before included */
-    double holding_scale; /* of torques that stand for a current: declared over modelled torque per ampere */
-    double *current_Nm;   /* [samples], what a current makes of torque_Nm where its scale is no value of the
-                           * rows: of a shaft that hardly accelerates; NULL: no such run is in use */
-    double constant_Nm_per_A;  /* the modelled torque per ampere, there */
-    double *constant_by_value; /* [terms], its derivatives; 0: no such run */
-} hci_predicted_reading;
+#include "host/diagnose/reading/along_time.h"
+#include "host/diagnose/reading/predicted_rows.h"
 
 /* Whether a run's torque stands for a current: nothing in it tells the size of a torque per ampere. */
 bool hci_run_reads_current(const hci_run *run);

@@ -7,7 +7,6 @@
 #include "host/diagnose/search/candidate_models.h"
 #include "host/diagnose/search/stability.h"
 
-#define DESCRIBED      2.0  /* mean logarithm of the squares of runs left out over their noise, up to which it is one */
 #define EQUAL          6.0  /* models whose scores differ by less fit as well as each other */
 #define PART           0.3  /* of the gain of an effect that makes another one plausible beside it */
 #define PROMISED_SHARE 0.6  /* what a rival must promise of the gain of the effect … */
@@ -149,7 +148,7 @@ static hci_status is_better(const rivalry *r, const hci_fitted_model *rival, siz
     if (is_called(r->type, hci_candidate_type(with))) return HCI_OK;
     hci_status status = hci_search_left_out(r->search, &r->model->candidates, &misfit, note);
     if (!status) status = hci_search_left_out(r->search, &rival->candidates, &rival_misfit, note);
-    *better = rival_misfit < misfit - HCI_DECISIVE && rival_misfit < DESCRIBED * r->model->fit.rows;
+    *better = rival_misfit < misfit - HCI_DECISIVE;
     return status;
 }
 

@@ -270,8 +270,9 @@ static bool is_of_loads(const hci_diagnosis *d)
 /* Nothing was found but that the torque drifts. */
 static bool is_of_drifts(const hci_diagnosis *d)
 {
-    return d->drifts > 0 && !any(d, HCI_FINDING_ADDED) && d->unexplained_count == 0 && !d->disbelieved &&
-           !d->contradicted && !is_unfinished(d) && d->rms_after_Nm < NOTHING_LEFT * d->noise_Nm;
+    return d->drifts > 0 && d->verdict == HCI_DIAGNOSIS_UNKNOWN && d->unexplained_count == 0 &&
+           !d->disbelieved && !d->contradicted && !is_unfinished(d) &&
+           d->rms_after_Nm < NOTHING_LEFT * d->noise_Nm;
 }
 
 static void say_not_known(const hci_words *w, const hci_diagnosis *d)

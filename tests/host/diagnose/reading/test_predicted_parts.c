@@ -19,6 +19,7 @@ static hci_binned_sample sample[N];
 static hci_segment segment[RUNS];
 static hci_run run[RUNS];
 static bool use[RUNS];
+static hci_run_statistics statistics[RUNS];
 static hci_binned_samples samples;
 static hci_regression regression;
 static hci_predicted_reading reading;
@@ -49,7 +50,7 @@ void setUp(void)
         run[r].turn_known = true;
         use[r] = true;
     }
-    samples = (hci_binned_samples){sample, N, segment, RUNS, NULL, RUNS};
+    samples = (hci_binned_samples){sample, N, segment, RUNS, statistics, RUNS};
     regression = (hci_regression){.machine = &MACHINE,
                                   .declared = &none,
                                   .declared_constant = 1.5 * K_NM_PER_A,

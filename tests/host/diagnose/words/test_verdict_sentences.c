@@ -512,9 +512,10 @@ static void test_a_search_that_ended_early(void)
     d.search = HCI_WORK_LIMITED;
     d.verdict = HCI_DIAGNOSIS_AMBIGUOUS;
     TEST_ASSERT_TRUE(begins("The search reached the limit of its work: this is"));
-    TEST_ASSERT_TRUE(says("compared with it (it gets further with fewer runs"));
+    TEST_ASSERT_TRUE(says("compared with it (it gets further with --work 4, which"));
     d.verdict = HCI_DIAGNOSIS_COMPLETE;
     TEST_ASSERT_TRUE(begins("The search reached the limit of its work: nothing"));
+    TEST_ASSERT_TRUE(says("(exit code 1); --work 4 lets it"));
 }
 
 /* ---- nothing can be said ---- */

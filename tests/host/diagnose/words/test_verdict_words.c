@@ -46,7 +46,7 @@ static void test_an_unfinished_search_gives_no_causes(void)
     d.wanders = d.contradicted = true;
     d.disbelieved = "back_emf";
     TEST_ASSERT_TRUE(says("is not known yet"));
-    TEST_ASSERT_TRUE(says("it gets further with fewer runs"));
+    TEST_ASSERT_TRUE(says("it gets further with --work 4"));
     TEST_ASSERT_FALSE(says("No known effect"));
     TEST_ASSERT_FALSE(says("The mean of each run"));
     TEST_ASSERT_FALSE(says("does not repeat"));
