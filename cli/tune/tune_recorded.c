@@ -45,29 +45,31 @@ static bool is_braked(const hci_run *r)
 
 #define TURNS 0.9 /* of the length of the current, that its mean in the rotor frame has */
 
-static double turning_A(const hci_run *r)
-{
-    hci_dq mean = {0.0, 0.0, 0.0};
-    for (size_t k = 0; r->theta_m_rad && k < r->count; ++k) {
-        const hci_dq i = hci_park(hci_clarke(r->i_A + 3 * k), r->pole_pairs * r->theta_m_rad[k]);
-        mean.d += i.d / (double)r->count, mean.q += i.q / (double)r->count;
-    }
-    const double length_A = hypot(mean.d, mean.q);
-    return length_A > TURNS * sqrt(2.0) * cli_tune_rms_A(r) ? length_A : 0.0;
-}
-
 double cli_tune_turning_A(const cli_tuning *t)
 {
     double most_A = 0.0;
-    for (size_t k = 0; k < t->runs.count; ++k)
-        if (t->runs.run[k].i_A) most_A = fmax(most_A, turning_A(&t->runs.run[k]));
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        const double length_A = r->i_A ? mean_vector(r) : 0.0;
+        if (length_A > most_A && length_A > TURNS * sqrt(2.0) * cli_tune_rms_A(r)) most_A = length_A;
+    }
     return most_A;
+}
+
+/* Times the largest current that turned: a bench does not stay so far below what is rated. */
+#define MUCH_RECORDED 100.0
+
+bool cli_tune_is_overrated(const cli_tuning *t)
+{
+    const double most_A = cli_tune_turning_A(t);
+    return most_A > 0.0 && t->declared.rated_current_A > MUCH_RECORDED * most_A;
 }
 
 bool cli_tune_has_no_current(const cli_tuning *t, const hci_run *r)
 {
     const double rms_A = cli_tune_rms_A(r);
-    double most_A = t->declared.rated_current_A > 0.0 ? t->declared.rated_current_A : 0.0;
+    const double rated_A = t->declared.rated_current_A;
+    double most_A = rated_A > 0.0 && !cli_tune_is_overrated(t) ? rated_A : 0.0;
     for (size_t k = 0; k < t->runs.count; ++k)
         most_A = fmax(most_A, cli_tune_rms_A(&t->runs.run[k]));
     if (rms_A <= NO_CURRENT * most_A) return true;

@@ -12,6 +12,9 @@ double cli_tune_rms_A(const hci_run *run);
  * length of its mean in the rotor frame, where that is most of it; 0: none does. O(samples). */
 double cli_tune_turning_A(const cli_tuning *tune);
 
+/* Whether the rated current is a hundred times as large and more, as one in mA that was read in A. */
+bool cli_tune_is_overrated(const cli_tuning *tune);
+
 /* None, or what a sensor of current makes of none. */
 bool cli_tune_has_no_current(const cli_tuning *tune, const hci_run *run);
 

@@ -74,111 +74,120 @@ static double open_swing_Nm(const cli_tuning *t)
     return most_Nm - least_Nm;
 }
 
-/* Times the ripple that a recording shows, for the square of the current: a model that does not explain the
- * recordings and makes more for a plain sine is worse than none. */
-#define UNLIKE 2.0
+/* ---- reasons to write no table: each says itself, and false where it does not hold ---- */
 
-/* Whether the model has a ripple that no recording shows; x: out, the one that shows most. */
-static bool is_unlike_recorded(const cli_tuning *t, cli_tune_ripple *x, double *before_Nm)
+typedef bool say_reason(const cli_tuning *tune, char *text, size_t size);
+
+static const char *units_of(const cli_tuning *t)
 {
-    double after_Nm;
-    if (!hci_expected_ripple_is_doubtful(&t->solution.expected) || !hci_tuning_knows_ripple(&t->solution))
-        return false;
-    *x = cli_tune_recorded_ripple(t);
-    cli_tune_swing_of(t, before_Nm, &after_Nm);
-    const double larger = x->current_A > 0.0 ? fmax(t->solution.plain_amplitude_A / x->current_A, 1.0) : 0.0;
-    return x->run < t->runs.count && larger > 0.0 &&
-           *before_Nm > UNLIKE * larger * larger * x->peak_to_peak_Nm;
+    for (size_t k = 0; k < t->runs.count; ++k)
+        if (t->runs.run[k].torque_source != HCI_TORQUE_MEASURED) return "currents and Kv";
+    return load_A(t) > 0.0 || t->runs.count == 0 ? "torque, currents and Kv" : "torque and Kv";
 }
 
-static void say_unlike(const cli_tuning *t, const cli_tune_ripple *x, double before_Nm, char *text,
-                       size_t size)
+static bool say_large_cogging(const cli_tuning *t, char *text, size_t size)
 {
+    const double rated_Nm = cli_tune_rated_Nm(t);
+    if (!(rated_Nm > 0.0 && t->open_swing_Nm > EXCESS_RATED * rated_Nm)) return false;
+    snprintf(text, size,
+             "A torque without current of %.3g N·m from peak to peak is %.3g times the rated torque of "
+             "%.3g N·m, which no motor has: are %s in the unit that they were read in (N·m, not N·cm, "
+             "lbf·in or N·mm; A, not mA; rpm/V)? No table was written",
+             t->open_swing_Nm, t->open_swing_Nm / rated_Nm, rated_Nm, units_of(t));
+    return true;
+}
+
+static bool say_against(const cli_tuning *t, char *text, size_t size)
+{
+    if (!is_against(&t->solution)) return false;
+    snprintf(text, size,
+             "The currents of the model for %.4g N·m have the sign that makes the other torque, which is "
+             "none of a motor: the model does not hold so far from what was recorded. No table was "
+             "written: --torque with less, or logs at several loads up to that torque",
+             t->mean_Nm);
+    return true;
+}
+
+/* Times the most ripple of a recording, for the square of the current where the sine is larger than all of
+ * them: a model that does not explain the recordings and makes more is worse than none. */
+#define UNLIKE 2.0
+
+static bool say_unlike(const cli_tuning *t, char *text, size_t size)
+{
+    const hci_solution *s = &t->solution;
+    double before_Nm, after_Nm;
+    if (!hci_expected_ripple_is_doubtful(&s->expected) || !hci_tuning_knows_ripple(s)) return false;
+    const cli_tune_ripple x = cli_tune_recorded_ripple(t);
+    cli_tune_swing_of(t, &before_Nm, &after_Nm);
+    const double most_A = cli_tune_turning_A(t);
+    if (x.run == t->runs.count || !(x.current_A > 0.0 && most_A > 0.0)) return false;
+    const double larger = fmax(s->plain_amplitude_A / most_A, 1.0);
+    if (!(before_Nm > UNLIKE * larger * larger * x.peak_to_peak_Nm)) return false;
     snprintf(
         text, size,
         "The model does not explain the recordings: a plain sine of %.3g A makes a ripple of %.2g N·m from "
-        "peak to peak in it, and %.120s shows %.2g N·m at %.3g A. No table was written: begin with the logs "
+        "peak to peak in it, and %.120s, which has most, shows %.2g N·m at %.3g A. No table was written: "
+        "begin with the logs "
         "of one load and those without a current",
-        t->solution.plain_amplitude_A, before_Nm, cli_tune_name_of(t, x->run), x->peak_to_peak_Nm,
-        x->current_A);
+        s->plain_amplitude_A, before_Nm, cli_tune_name_of(t, x.run), x.peak_to_peak_Nm, x.current_A);
+    return true;
 }
 
-/* Times the largest recorded current: a bench does not stay so far below what is rated. */
-#define MUCH_RECORDED 100.0
-
-/* Whether the table has currents of a rating that is in mA. */
-static bool is_of_milliampere(const cli_tuning *t)
+static bool is_much_current(const cli_tuning *t)
 {
-    const double most_A = MUCH_RECORDED * cli_tune_turning_A(t);
-    return t->arguments->given[TUNE_CURRENT] && most_A > 0.0 && t->declared.rated_current_A > most_A &&
-           t->solution.peak_phase_current_A > EXCESS_CURRENT / MUCH_RECORDED * most_A;
+    return t->solution.peak_phase_current_A > EXCESS_CURRENT * t->usual_A;
 }
 
-static void say_milliampere(const cli_tuning *t, char *text, size_t size)
+static bool say_much_torque(const cli_tuning *t, char *text, size_t size)
 {
-    const double rated_A = t->declared.rated_current_A, load_A = cli_tune_turning_A(t);
+    const double sine_A = t->solution.plain_amplitude_A;
+    if (!is_much_current(t) || !t->arguments->given[TUNE_TORQUE] || !(sine_A > EXCESS_CURRENT * t->usual_A))
+        return false;
     snprintf(text, size,
-             "A rated current of %.4g A is %.0f times the largest that was recorded, %.3g A: is it in mA "
-             "(--rated-current %.4g)? No table was written",
-             rated_A, rated_A / load_A, load_A, rated_A / 1000.0);
+             "A torque of %.4g N·m would take a sine of %.3g A, %.3g times the %.3g A that %s: is "
+             "--torque in N·m, and is %s right? No table was written",
+             t->mean_Nm, sine_A, sine_A / t->usual_A, t->usual_A,
+             cli_tune_rated_Nm(t) > 0.0 ? "are rated or recorded" : "were taken for its load",
+             cli_tune_constant_option(t));
+    return true;
+}
+
+static bool say_much_current(const cli_tuning *t, char *text, size_t size)
+{
+    const double peak_A = t->solution.peak_phase_current_A;
+    if (!is_much_current(t)) return false;
+    snprintf(text, size,
+             "The table would take a peak current of %.3g A for a torque without current of %.3g N·m from "
+             "peak to peak, %.3g times the %.3g A that %s: are %s in the unit that they were read in "
+             "(N·m, not N·cm, lbf·in or N·mm; A, not mA; rpm/V)? If they are, give --rated-current. No table "
+             "was written",
+             peak_A, t->open_swing_Nm, peak_A / t->usual_A, t->usual_A,
+             cli_tune_rated_Nm(t) > 0.0 ? "are rated" : "were taken for its load", units_of(t));
+    return true;
+}
+
+/* The first that holds is said. */
+static say_reason *const REASON[] = {say_large_cogging, say_against, say_unlike, say_much_torque,
+                                     say_much_current};
+
+bool cli_tune_say_excess(const cli_tuning *t, char *text, size_t size)
+{
+    for (size_t k = 0; k < sizeof REASON / sizeof *REASON; ++k)
+        if (REASON[k](t, text, size)) return true;
+    return false;
 }
 
 void cli_tune_judge_size(cli_tuning *t)
 {
-    cli_tune_ripple recorded;
-    double before_Nm;
     const double rated_Nm = cli_tune_rated_Nm(t);
+    char text[1024];
     if (!t->is_solved) return;
     t->open_swing_Nm = open_swing_Nm(t);
     t->usual_A = usual_A(t);
-    if ((rated_Nm > 0.0 && t->open_swing_Nm > EXCESS_RATED * rated_Nm) || is_against(&t->solution) ||
-        is_of_milliampere(t) || is_unlike_recorded(t, &recorded, &before_Nm) ||
-        t->solution.peak_phase_current_A > EXCESS_CURRENT * t->usual_A)
+    if (cli_tune_say_excess(t, text, sizeof text))
         t->size = CLI_TUNE_EXCESS;
     else if (rated_Nm > 0.0 && t->open_swing_Nm > LARGE_COGGING * rated_Nm)
         t->size = CLI_TUNE_LARGE;
-}
-
-void cli_tune_say_excess(const cli_tuning *t, char *text, size_t size)
-{
-    const double rated_Nm = cli_tune_rated_Nm(t);
-    cli_tune_ripple recorded;
-    double before_Nm;
-    const char *unit = load_A(t) > 0.0 || t->runs.count == 0 ? "torque, currents and Kv" : "torque and Kv";
-    for (size_t k = 0; k < t->runs.count; ++k)
-        if (t->runs.run[k].torque_source != HCI_TORQUE_MEASURED) unit = "currents and Kv";
-    if (rated_Nm > 0.0 && t->open_swing_Nm > EXCESS_RATED * rated_Nm)
-        snprintf(text, size,
-                 "A torque without current of %.3g N·m from peak to peak is %.3g times the rated torque of "
-                 "%.3g N·m, which no motor has: are %s in the unit that they were read in (N·m, not N·cm, "
-                 "lbf·in or N·mm; A, not mA; rpm/V)? No table was written",
-                 t->open_swing_Nm, t->open_swing_Nm / rated_Nm, rated_Nm, unit);
-    else if (is_against(&t->solution))
-        snprintf(text, size,
-                 "The currents of the model for %.4g N·m have the sign that makes the other torque, which is "
-                 "none of a motor: the model does not hold so far from what was recorded. No table was "
-                 "written: --torque with less, or logs at several loads up to that torque",
-                 t->mean_Nm);
-    else if (is_of_milliampere(t))
-        say_milliampere(t, text, size);
-    else if (is_unlike_recorded(t, &recorded, &before_Nm))
-        say_unlike(t, &recorded, before_Nm, text, size);
-    else if (t->arguments->given[TUNE_TORQUE] && t->solution.plain_amplitude_A > EXCESS_CURRENT * t->usual_A)
-        snprintf(text, size,
-                 "A torque of %.4g N·m would take a sine of %.3g A, %.3g times the %.3g A that %s: is "
-                 "--torque in N·m, and is %s right? No table was written",
-                 t->mean_Nm, t->solution.plain_amplitude_A, t->solution.plain_amplitude_A / t->usual_A,
-                 t->usual_A, rated_Nm > 0.0 ? "are rated or recorded" : "were taken for its load",
-                 cli_tune_constant_option(t));
-    else
-        snprintf(
-            text, size,
-            "The table would take a peak current of %.3g A for a torque without current of %.3g N·m from "
-            "peak to peak, %.3g times the %.3g A that %s: are %s in the unit that they were read in "
-            "(N·m, not N·cm, lbf·in or N·mm; A, not mA; rpm/V)? If they are, give --rated-current. No table "
-            "was written",
-            t->solution.peak_phase_current_A, t->open_swing_Nm, t->solution.peak_phase_current_A / t->usual_A,
-            t->usual_A, rated_Nm > 0.0 ? "are rated" : "were taken for its load", unit);
 }
 
 bool cli_tune_is_unpromised(const cli_tuning *t)
@@ -411,20 +420,31 @@ static bool say_unusual(const cli_tuning *t, const strength *x, char *text, size
 /* Times all torque that is found or asked for. */
 #define MUCH_RATED 1000.0
 
-static bool say_rated(const cli_tuning *t, char *text, size_t size)
+/* Where no current turned with the rotor. */
+static bool say_rated_torque(const cli_tuning *t, char *text, size_t size)
 {
     const double asked_Nm = t->arguments->given[TUNE_TORQUE] ? t->arguments->number[TUNE_TORQUE] : 0.0;
-    const double rated_A = t->declared.rated_current_A,
+    const double rated_A = t->declared.rated_current_A, most_Nm = fmax(asked_Nm, t->open_swing_Nm),
                  rated_Nm = rated_A * t->reading.run.torque_constant_Nm_per_A;
-    const double most_Nm = fmax(asked_Nm, t->open_swing_Nm);
-    if (!t->arguments->given[TUNE_CURRENT] || !(most_Nm > 0.0) || !(rated_Nm > MUCH_RATED * most_Nm) ||
+    if (!(most_Nm > 0.0) || !(rated_Nm > MUCH_RATED * most_Nm) ||
         rated_A < MUCH_RATED * cli_tune_largest_recorded_A(t))
         return false;
     snprintf(text, size,
              "a rated current of %.4g A would make %.3g N·m, %.2g times all torque that is found or asked "
-             "for: is it in mA "
-             "(--rated-current %.4g)?",
+             "for: is it in mA (--rated-current %.4g)?",
              rated_A, rated_Nm, rated_Nm / most_Nm, rated_A / 1000.0);
+    return true;
+}
+
+static bool say_rated(const cli_tuning *t, char *text, size_t size)
+{
+    const double rated_A = t->declared.rated_current_A, most_A = cli_tune_turning_A(t);
+    if (!t->arguments->given[TUNE_CURRENT]) return false;
+    if (!cli_tune_is_overrated(t)) return say_rated_torque(t, text, size);
+    snprintf(text, size,
+             "a rated current of %.4g A is %.0f times the largest that was recorded, %.3g A: is it in mA "
+             "(--rated-current %.4g)?",
+             rated_A, rated_A / most_A, most_A, rated_A / 1000.0);
     return true;
 }
 

@@ -7,8 +7,9 @@
 /* Sets size by the solution: a unit that is another one makes a table many times too large. */
 void cli_tune_judge_size(cli_tuning *tune);
 
-/* The first line of a table that is not written for its size; text: of size bytes. */
-void cli_tune_say_excess(const cli_tuning *tune, char *text, size_t size);
+/* Why no table is written, for its size or that of the ripple in the model, as the first line; false: one is.
+ * text: of size bytes. */
+bool cli_tune_say_excess(const cli_tuning *tune, char *text, size_t size);
 
 /* What is rated, in N·m; 0: nothing is. */
 double cli_tune_rated_Nm(const cli_tuning *tune);
