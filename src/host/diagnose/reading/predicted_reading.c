@@ -17,10 +17,9 @@
 #define SAME_SCALE       1e-6 /* departure of a torque per ampere that is rounding */
 #define LARGEST_SCALE    1e3  /* of a torque per ampere that has vanished */
 
-enum {
-    LESS_BETWEEN = 3 /* a place between samples is so small a part of the work of one: few samples are no
-                      * reason to look at a list less far */
-};
+/* Of what a sample counts, a place between samples counts one in so many. It takes as long: but lists with few
+ * samples in a period of the slots are to be looked at as far as others. */
+enum { LESS_BETWEEN = 3 };
 
 enum { ANGLES_OF_MEAN = 97 /* a prime: evenly spread over the electrical and the mechanical turn */ };
 
