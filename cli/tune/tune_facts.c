@@ -9,6 +9,7 @@
 #include "cli/tune/tune_recorded.h"
 #include "cli/tune/tune_suspect.h"
 #include "cli/tune/tune_waveforms.h"
+#include "hci/math/harmonic.h"
 
 /* Of the data sheet, that a measured back-EMF may be off and not be a contradiction. */
 #define OFF_SHEET 0.15
@@ -135,17 +136,37 @@ static void add_speeds(const hci_run *r, range_of_speeds *s)
     s->most = fmax(s->most, own.most);
 }
 
-/* Whether all that a torque sensor has measured in time is of one speed: one that reads late turns the orders
- * by an angle that is not told then. */
+/* Rows without a clock whose shaft was turned all the same: they have a speed, or go on beyond a turn, which
+ * a computed table does not. */
+static bool turns_untimed(const hci_run *r)
+{
+    if (r->time_s || !r->theta_m_rad || r->count == 0) return false;
+    if (fabs(r->theta_m_rad[r->count - 1] - r->theta_m_rad[0]) > 2.0 * HCI_PI) return true;
+    return r->speed_rad_per_s && r->speed_rad_per_s[0] != 0.0;
+}
+
+/* Whether all that a torque sensor has measured in time is of one speed, or none of what it measured has a
+ * time: one that reads late turns the orders by an angle that is not told then. */
 static bool has_one_speed(const cli_tuning *t)
 {
     range_of_speeds s = {HUGE_VAL, -HUGE_VAL};
+    bool untimed = false;
     for (size_t k = 0; k < t->runs.count; ++k) {
         const hci_run *r = &t->runs.run[k];
-        if (r->torque_source == HCI_TORQUE_MEASURED && r->time_s && r->speed_rad_per_s) add_speeds(r, &s);
+        if (r->torque_source != HCI_TORQUE_MEASURED) continue;
+        if (r->time_s && r->speed_rad_per_s) add_speeds(r, &s);
+        untimed = untimed || turns_untimed(r);
     }
     const double least = s.least, most = s.most;
+    if (least > most) return untimed;
     return least * most > 0.0 && fmax(fabs(least), fabs(most)) < ONE_SPEED * fmin(fabs(least), fabs(most));
+}
+
+bool cli_tune_lacks_times(const cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count; ++k)
+        if (t->runs.run[k].torque_source == HCI_TORQUE_MEASURED && t->runs.run[k].time_s) return false;
+    return true;
 }
 
 bool cli_tune_hangs_on_lag(const cli_tuning *t)

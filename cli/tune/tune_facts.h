@@ -32,8 +32,12 @@ bool cli_tune_off_iq(const cli_tuning *tune, double *offset_deg);
 
 bool cli_tune_is_uncounted(const cli_tuning *tune);
 
-/* Whether the bound is of recordings at one speed, which do not tell a torque sensor that reads late. */
+/* Whether the bound is of recordings at one speed or without a time, which do not tell a torque sensor that
+ * reads late. */
 bool cli_tune_hangs_on_lag(const cli_tuning *tune);
+
+/* Whether no recording of a torque sensor has a time. */
+bool cli_tune_lacks_times(const cli_tuning *tune);
 
 /* Whether no log has a torque of any kind. */
 bool cli_tune_lacks_torque(const cli_tuning *tune);

@@ -25,6 +25,13 @@ static const char *becomes(double before_Nm, double after_Nm)
     return after_Nm < before_Nm ? "falls to" : "becomes one of";
 }
 
+static const char *if_in_time(const cli_tuning *t)
+{
+    if (!cli_tune_hangs_on_lag(t)) return "";
+    return cli_tune_lacks_times(t) ? " if the torque sensor is in time, which logs without a time do not tell"
+                                   : " if the torque sensor is in time, which one speed does not tell";
+}
+
 /* A bound above what a plain sine leaves promises nothing, and one far above it is none. */
 static void say_bound(const cli_tuning *t, double before_Nm, double after_Nm, char *text, size_t size)
 {
@@ -40,8 +47,7 @@ static void say_bound(const cli_tuning *t, double before_Nm, double after_Nm, ch
             text, size,
             "A ripple of %.3g N·m from peak to peak falls to at most %.3g N·m on the machine (95 %%)%s, of "
             "which the table makes %.2g",
-            before_Nm, hci_ripple_bound_as_said(e->peak_to_peak_Nm),
-            cli_tune_hangs_on_lag(t) ? " if the torque sensor is in time, which one speed does not tell" : "",
+            before_Nm, hci_ripple_bound_as_said(e->peak_to_peak_Nm), if_in_time(t),
             hci_ripple_bound_as_said(e->table_peak_to_peak_Nm));
     else
         snprintf(text, size,

@@ -236,6 +236,15 @@ static void say_recording(cli_tuning *t, const hci_run *r, const char *name)
 
 static void say_lag(cli_tuning *t)
 {
+    if (cli_tune_lacks_times(t)) {
+        hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                       "Whether the torque sensor reads late: no recording with it has a column of the time, "
+                       "and a delay turns the orders by an angle that the bound leaves out.");
+        hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
+                       "The same logs with a column of the time, one of the loads turned back or at another "
+                       "speed, which tells a delay of the sensor.");
+        return;
+    }
     hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
                    "Whether the torque sensor reads late: every recording with it has one speed and one "
                    "direction, and a delay turns the orders by an angle that the bound leaves out.");

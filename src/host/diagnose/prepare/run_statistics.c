@@ -13,7 +13,9 @@
 #define ZEROS        0.05 /* of the largest current, that nobody would have left unnoticed as zeros of sensors */
 #define COMMON       0.02 /* share of the mean square that neighbours have in common, of a current that flows … */
 #define FLOWS        0.5 /* share that so many samples have in common only where one flows */
-#define CHANCE       3.0 /* … beyond what they have by chance, in standard deviations */
+#define EVEN                                                                                                 \
+    0.5 /* of the mean step of angle, by which those of a rotor that was read along its turn differ */
+#define CHANCE 3.0 /* … beyond what they have by chance, in standard deviations */
 
 enum {
     LEAST_SAMPLES = 64,
@@ -97,6 +99,20 @@ static hci_dq moving_dq(const hci_run *r, int pole_pairs, size_t k, const double
     return hci_park(hci_clarke(i), pole_pairs * (r->theta_m_rad ? r->theta_m_rad[k] : 0.0));
 }
 
+/* Whether neighbouring rows are neighbours in time: by a clock, or as a rotor that turns one way was read at
+ * even steps of its angle. Rows of a table of operating points need not be. */
+static bool is_in_order(const hci_run *r)
+{
+    if (r->time_s) return true;
+    if (!r->theta_m_rad || r->count < LEAST_SAMPLES) return false;
+    const double steps = (double)(r->count - 1);
+    const double mean = (r->theta_m_rad[r->count - 1] - r->theta_m_rad[0]) / steps;
+    double square = 0.0;
+    for (size_t k = 1; k < r->count; ++k)
+        square += pow(r->theta_m_rad[k] - r->theta_m_rad[k - 1] - mean, 2.0);
+    return square < EVEN * EVEN * mean * mean * steps;
+}
+
 /* Whether the current besides a standing part is nothing but noise: white, so that neighbours have nothing in
  * common, while a current that flows is much the same from one sample to the next. In a holding test the
  * current is what was measured. */
@@ -104,7 +120,7 @@ static bool is_noise(const hci_run *r, int pole_pairs, const double standing_A[3
 {
     const double n = (double)r->count;
     double common = 0.0, square = 0.0;
-    if (r->count < LEAST_SAMPLES || r->torque_source == HCI_TORQUE_HOLDING || !r->time_s) return false;
+    if (r->count < LEAST_SAMPLES || r->torque_source == HCI_TORQUE_HOLDING || !is_in_order(r)) return false;
     hci_dq before = moving_dq(r, pole_pairs, 0, standing_A);
     for (size_t k = 1; k < r->count; ++k) {
         const hci_dq i = moving_dq(r, pole_pairs, k, standing_A);

@@ -14,6 +14,7 @@
 #define PLAIN        100.0 /* ΔBIC of an effect that is not taken, and said all the same */
 #define NOTHING_LEFT 1.1   /* times the noise: an error in which nothing else is left */
 #define SHOWS        0.05  /* of the noise: torque that an effect has to make to be taken */
+#define SAME_LOAD    0.2   /* of the largest mean torque, by which others differ and tell nothing more */
 #define BELIEVABLE   0.5   /* of the declared torque per ampere */
 
 static bool is_named(const hci_finding *f, hci_finding_verdict verdict)
@@ -165,11 +166,27 @@ static const char *means_words(const hci_diagnosis *d)
                          : ", as where a load or the friction is another one each time.";
 }
 
+/* Whether a torque sensor has seen one load alone, as far as means tell, whatever ran without one. */
+static bool has_one_load(const hci_diagnosis *d)
+{
+    double least = INFINITY, most = -INFINITY, largest = 0.0;
+    for (size_t k = 0; k < d->runs; ++k)
+        largest = fmax(largest, fabs(d->run[k].mean_torque_Nm));
+    for (size_t k = 0; k < d->runs; ++k) {
+        const double mean = d->run[k].mean_torque_Nm;
+        if (d->run[k].source != HCI_TORQUE_MEASURED) return false;
+        if (!(fabs(mean) > UNLOADED * largest)) continue;
+        least = fmin(least, mean);
+        most = fmax(most, mean);
+    }
+    return least <= most && most - least < SAME_LOAD * largest;
+}
+
 /* An explanation that was left out, and what it may come from. */
 static void say_disbelieved(const hci_words *w, const hci_diagnosis *d)
 {
     if (!d->disbelieved) return;
-    hci_words_say(w, " The recordings would fit %s, but with values that nobody would believe",
+    hci_words_say(w, " The recordings would fit %s, but with values that are not plausible",
                   hci_finding_title(d->disbelieved));
     if (d->disbelieved_share < BELIEVABLE)
         hci_words_say(w, " (it would leave %.2g of the declared torque per ampere of i_q)",
@@ -184,6 +201,9 @@ static void say_disbelieved(const hci_words *w, const hci_diagnosis *d)
     else
         hci_words_say(w, ", so it was left out: see with `check` whether signs, units, angle and motor are "
                          "those of the machine folder.");
+    if (has_one_load(d))
+        hci_words_say(w, " All loads are of one size, at which several effects look alike and take values "
+                         "from each other: another load, at half of it or so, tells them apart.");
 }
 
 /* ---- what is decisive and was not taken ---- */

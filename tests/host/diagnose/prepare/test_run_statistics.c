@@ -98,6 +98,24 @@ static void test_zeros_of_sensors(void)
     TEST_ASSERT_TRUE(x[0].zeros_read && !x[1].zeros_read);
 }
 
+/* Rows without a clock are in order where a rotor was read at even steps of its turn, and need not be where
+ * the angle goes about: there each row may have a current of its own. */
+static void test_zeros_of_sensors_without_a_clock(void)
+{
+    static const double ZERO_A[3] = {0.3, -0.1, 0.05}, NOTHING_A[3] = {0.0};
+    double *time_s = run.time_s;
+    run.time_s = NULL;
+    read_zeros(ZERO_A);
+    TEST_ASSERT_TRUE(hci_run_statistics_of(&run, P).stands);
+    read_zeros(NOTHING_A);
+    TEST_ASSERT_TRUE(hci_run_statistics_of(&run, P).no_current);
+    for (size_t k = 0; k < N; ++k)
+        run.theta_m_rad[k] *= 1.0 + 1e-4 * ref_normal(&seed);
+    TEST_ASSERT_FALSE(hci_run_statistics_of(&run, P).no_current);
+    run.time_s = time_s;
+    TEST_ASSERT_TRUE(hci_run_statistics_of(&run, P).no_current);
+}
+
 /* Neither in less than ten electrical turns, nor where a current flows: what turns with the rotor has a mean
  * of next to nothing, and beside it even a zero is not all that was read. */
 static void test_a_current_that_flows_is_no_zero(void)
@@ -147,6 +165,7 @@ int main(void)
     RUN_TEST(test_angle);
     RUN_TEST(test_repeatability);
     RUN_TEST(test_zeros_of_sensors);
+    RUN_TEST(test_zeros_of_sensors_without_a_clock);
     RUN_TEST(test_a_current_that_flows_is_no_zero);
     RUN_TEST(test_nothing_is_there);
     RUN_TEST(test_direct_current);

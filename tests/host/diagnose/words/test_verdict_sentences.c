@@ -269,7 +269,7 @@ static void test_what_is_left(void)
                              words());
 }
 
-/* ---- values that nobody would believe ---- */
+/* ---- values that are not plausible ---- */
 
 static void disbelieve(double share)
 {
@@ -279,18 +279,41 @@ static void disbelieve(double share)
 }
 
 /* Less than half of the torque per ampere is said. */
-static void test_values_that_nobody_would_believe(void)
+static void test_values_that_are_not_plausible(void)
 {
     disbelieve(0.49);
     TEST_ASSERT_EQUAL_STRING(
         "No known effect explains what the model lacks. The recordings would fit gains of the current "
         "sensors, but with "
-        "values that nobody would believe (it would leave 0.49 of the declared torque per ampere of i_q), so "
+        "values that are not plausible (it would leave 0.49 of the declared torque per ampere of i_q), so "
         "it was left "
         "out: see with `check` whether signs, units, angle and motor are those of the machine folder.",
         words());
     disbelieve(0.51);
-    TEST_ASSERT_TRUE(says("would believe, so it was left out: see with"));
+    TEST_ASSERT_TRUE(says("not plausible, so it was left out: see with"));
+}
+
+/* Of torque sensors alone, and of loads that are alike. */
+static void test_one_load(void)
+{
+    static const char SAID[] = "All loads are of one size";
+    disbelieve(0.6);
+    d.runs = 3;
+    for (size_t k = 0; k < 3; ++k)
+        run[k] = (hci_run_errors){.source = HCI_TORQUE_MEASURED, .mean_torque_Nm = k == 0 ? -0.04 : 1.0};
+    TEST_ASSERT_TRUE(says(SAID));
+    run[2].mean_torque_Nm = 0.81;
+    TEST_ASSERT_TRUE(says(SAID));
+    run[2].mean_torque_Nm = 0.79;
+    TEST_ASSERT_FALSE(says(SAID));
+    run[2].mean_torque_Nm = -1.0;
+    TEST_ASSERT_FALSE(says(SAID));
+    run[2].mean_torque_Nm = 1.0;
+    run[0].source = HCI_TORQUE_HOLDING;
+    TEST_ASSERT_FALSE(says(SAID));
+    run[0].source = HCI_TORQUE_MEASURED;
+    d.disbelieved = NULL;
+    TEST_ASSERT_FALSE(says(SAID));
 }
 
 /* Means that are more than half of the mean square of the errors. */
@@ -559,7 +582,8 @@ int main(void)
     RUN_TEST(test_nothing_explains_it);
     RUN_TEST(test_what_else_is_left_beside_voltages_and_loads);
     RUN_TEST(test_what_is_left);
-    RUN_TEST(test_values_that_nobody_would_believe);
+    RUN_TEST(test_values_that_are_not_plausible);
+    RUN_TEST(test_one_load);
     RUN_TEST(test_means_in_place_of_signs);
     RUN_TEST(test_means_that_grow_with_the_torque);
     RUN_TEST(test_means_that_are_right_without_a_torque);

@@ -50,7 +50,7 @@ static void test_an_unfinished_search_gives_no_causes(void)
     TEST_ASSERT_FALSE(says("No known effect"));
     TEST_ASSERT_FALSE(says("The mean of each run"));
     TEST_ASSERT_FALSE(says("does not repeat"));
-    TEST_ASSERT_FALSE(says("nobody would believe"));
+    TEST_ASSERT_FALSE(says("not plausible"));
 }
 
 static void test_what_runs_without_a_current_show(void)

@@ -1,0 +1,41 @@
+#!/bin/sh
+# What tune makes of rows as test benches write them: without a clock, there and back in one file, of sensors that are at their end or off at zero.
+# labels: slow
+#   cli_tune_rows.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
+. "$1/tests/support/common.sh"
+use_plain_build
+cd "$work" || exit 1
+
+# FILE LOAD_A OFF: six turns, 512 rows each, read at even steps of the angle, three pole pairs, OFF times 0.9 N·m/A with a ripple of 3 %. The current
+# sensors have zeros and noise; theirs is a gain of 1, or with OFF 1 another one each.
+by_angle() {
+    awk -v load="$2" -v off="$3" 'function noise() { return rand() + rand() + rand() + rand() - 2 }
+        BEGIN { srand(3 + load); turn = 6.283185307179586; print "theta_m_deg,torque_Nm,ia_A,ib_A,ic_A,speed_rpm"
+        for (k = 0; k < 3072; ++k) { x = 0.4 + k * turn / 512; e = 3 * x
+            a = load * sin(e); b = load * sin(e - turn / 3); c = load * sin(e + turn / 3)
+            torque = off * load * (0.9 + 0.03 * sin(6 * e + 0.4)) + 0.05 * sin(6 * x + 1) + 0.02 * sin(12 * x) - 0.01
+            printf "%.4f,%.4f,%.4f,%.4f,%.4f,30.0\n", x * 360 / turn, torque + 0.008 * noise(),
+                a * (off == 1 ? 0.995 : 1) + 0.01 + 0.02 * noise(), b * (off == 1 ? 0.988 : 1) - 0.006 + 0.02 * noise(), c * (off == 1 ? 0.991 : 1) + 0.001 + 0.02 * noise() } }' >"$1"
+}
+motor='--pole-pairs 3 --flux 0.2 --slots 9 --rated-current 4'
+
+# ---- without a clock: what was read without a load is noise by its rows as well, and the load tells the back-EMF
+
+by_angle idle.csv 0 1
+by_angle load.csv 4 1
+run 1 tune idle.csv load.csv $motor -o untimed
+says '^tuned.*falls to at most .* if the torque sensor is in time, which logs without a time do not tell' 'zeros of the sensors, taken as no current' \
+    'Whether the torque sensor reads late: no recording with it has a column' 'same logs with a column of the time'
+check "a back-EMF that was not found" [ "$(grep -c 'back_emf,rejected' untimed/diagnose/effects.csv)" -eq 0 ]
+
+# ---- a torque per ampere that is another one is not told from what else one load shows: another load is asked for, and tells
+
+by_angle one.csv 4 0.99
+by_angle half.csv 2 0.99
+run 1 tune idle.csv one.csv $motor -o one
+says 'that are not plausible' 'All loads are of one size, at which several effects look alike' 'another load, at half of it or so, tells'
+run 1 tune idle.csv one.csv half.csv $motor -o two
+says '^tuned.*falls to at most 0\.00[0-9]* N·m on the machine'
+check "one load, of two" [ "$(grep -c 'All loads are of one size' "$work/stdout")" -eq 0 ]
+
+finish
