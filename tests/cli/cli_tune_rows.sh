@@ -38,4 +38,21 @@ run 1 tune idle.csv one.csv half.csv $motor -o two
 says '^tuned.*falls to at most 0\.00[0-9]* N·m on the machine'
 check "one load, of two" [ "$(grep -c 'All loads are of one size' "$work/stdout")" -eq 0 ]
 
+# ---- there and back in one file, with a pause in which the shaft is turned on: one speed, of which the sign tells friction from the sensor's zero
+
+# FILE SPEED_COLUMN: 12 turns of 4 s each way, a torque sensor of 0.02 N·m behind a friction of 0.03.
+there_and_back() {
+    awk -v with="$2" 'function noise() { return rand() + rand() + rand() + rand() - 2 }
+        BEGIN { srand(7); turn = 6.283185307179586; print "time_s,theta_m_rad,ia_A,ib_A,ic_A,torque_Nm" (with ? ",speed_rpm" : "")
+        for (way = 1; way >= -1; way -= 2) for (k = 0; k < 12000; ++k) {
+            t = (way < 0 ? 15 : 0) + k / 1000; x = (way < 0 ? 41.3 : 1.7) + way * k / 4000 * turn
+            printf "%.4f,%.5f,%.4f,%.4f,%.4f,%.5f%s\n", t, x, 0.01 + 0.01 * noise(), -0.006 + 0.01 * noise(), 0.01 * noise(),
+                0.05 * sin(18 * x + 1) + 0.02 * sin(36 * x) + 0.02 - 0.03 * way + 0.007 * noise(), with ? sprintf(",%.2f", 15 * way) : "" } }' >"$1"
+}
+for speed in '' speed; do
+    there_and_back "ways$speed.csv" "$speed"
+    run 0 tune "ways$speed.csv" $motor -o "ways$speed"
+    says '^tuned: A ripple of 0.1[0-9]* N·m from peak to peak falls' 'friction .added.: coulomb = 0.03' 'errors of the torque sensor .added.: offset = 0.0[12]'
+done
+
 finish

@@ -33,9 +33,9 @@ static bool is_within(const hci_run_statistics *f, const hci_dataset *b)
     for (size_t r = 0; r < b->samples.run_count; ++r) {
         if (!b->fit[r]) continue;
         most_A = fmax(most_A, b->samples.statistics[r].current_A);
-        most_speed = fmax(most_speed, fabs(b->samples.statistics[r].mean_speed_rad_per_s));
+        most_speed = fmax(most_speed, b->samples.statistics[r].pace_rad_per_s);
     }
-    return f->current_A <= BEYOND * most_A && fabs(f->mean_speed_rad_per_s) <= BEYOND * most_speed;
+    return f->current_A <= BEYOND * most_A && f->pace_rad_per_s <= BEYOND * most_speed;
 }
 
 /* Errors of the runs held out that a fit could describe, as mean squares over runs. */

@@ -8,10 +8,10 @@
 #include "host/base/memory.h"
 #include "host/base/words.h"
 #include "host/diagnose/fit/fit.h"
-#include "host/diagnose/reading/predicted_reading.h"
 #include "host/diagnose/next/open_points.h"
 #include "host/diagnose/next/tell_apart.h"
 #include "host/diagnose/next/unknown_points.h"
+#include "host/diagnose/reading/predicted_reading.h"
 
 enum {
     MOST_PAIRS = 16,
@@ -311,11 +311,12 @@ static void words_of_new(const hci_regression *e, const hci_operating_point *x, 
     bool current = false, without = false, way = false, unused = false;
     for (size_t r = 0; r < e->samples->run_count; ++r) {
         const hci_run_statistics *f = &e->samples->statistics[r];
-        unused = unused || f->mean_speed_rad_per_s * x->speed_rad_per_s > 0.0;
+        const bool this_way = f->both_ways || f->mean_speed_rad_per_s * x->speed_rad_per_s > 0.0;
+        unused = unused || this_way;
         if (!hci_segment_next(e->samples, r, NULL)) continue;
         current = current || f->current_A > 0.0;
         without = without || !(f->current_A > 0.0);
-        way = way || f->mean_speed_rad_per_s * x->speed_rad_per_s > 0.0;
+        way = way || this_way;
     }
     const bool none = x->id_A == 0.0 && x->iq_A == 0.0;
     hci_words_say(&(hci_words){to->why, sizeof to->why}, "%s",

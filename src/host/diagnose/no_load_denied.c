@@ -87,7 +87,7 @@ static bool is_one_speed(const hci_dataset *b, const hci_runs *runs)
 {
     double least = INFINITY, most = 0.0;
     for (size_t r = 0; r < runs->count; ++r) {
-        const double speed = fabs(b->samples.statistics[r].mean_speed_rad_per_s);
+        const double speed = b->samples.statistics[r].pace_rad_per_s;
         if (runs->run[r].torque_source != HCI_TORQUE_MEASURED || is_loaded(b, r)) continue;
         least = fmin(least, speed);
         most = fmax(most, speed);

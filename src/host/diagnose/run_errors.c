@@ -145,6 +145,8 @@ static hci_run_errors errors_of(const hci_dataset *b, const hci_runs *runs, size
         .file = runs->run[run].name, .role = runs->role[run], .source = runs->run[run].torque_source};
     const double spread = SIGMA_95 / sqrt(2.0 * samples_of(b, run));
     e.mean_torque_Nm = b->samples.statistics[run].mean_torque_Nm;
+    const double rms_Nm = b->samples.statistics[run].rms_torque_Nm;
+    e.torque_varies_Nm = sqrt(fmax(0.0, rms_Nm * rms_Nm - e.mean_torque_Nm * e.mean_torque_Nm));
     e.slip_rad = b->index_offset_rad[run];
     e.rms_before_Nm = rms_of(b, run, before);
     e.rms_after_Nm = rms_of(b, run, after);

@@ -62,6 +62,7 @@ typedef struct {
     hci_role role;                      /* fitted, or held out */
     hci_torque_source source;           /* where its torque is from */
     double mean_torque_Nm;              /* of the recording */
+    double torque_varies_Nm;            /* rms about it, ripple and loads that follow each other */
     double rms_before_Nm, rms_after_Nm; /* of measured less modelled torque: declared and corrected machine */
     double error_mean_before_Nm, error_mean_after_Nm; /* its mean, signed */
     double ripple_before_Nm, ripple_after_Nm;         /* rms of what is left beside the mean */

@@ -144,10 +144,9 @@ static size_t speeds_of(const hci_candidates_source *s)
     speeds x = {.count = 0};
     for (size_t r = 0; r < s->samples->run_count; ++r) {
         const hci_run_statistics *f = &s->samples->statistics[r];
-        const double mean = fabs(f->mean_speed_rad_per_s);
         if (!s->use[r]) continue;
-        speed_add(&x, mean);
-        speed_add(&x, mean + AROUND * f->speed_deviation);
+        speed_add(&x, f->pace_rad_per_s);
+        speed_add(&x, f->pace_rad_per_s + AROUND * f->pace_deviation);
     }
     return x.count;
 }
@@ -184,8 +183,8 @@ static hci_effect_survey survey_of(const hci_candidates_source *s)
         const hci_run_statistics *f = &s->samples->statistics[r];
         x.timed = x.timed || (s->runs[r].time_s && s->runs[r].speed_rad_per_s);
         x.moving = x.moving || f->mean_speed_rad_per_s != 0.0;
-        ahead = ahead || (s->use[r] && f->mean_speed_rad_per_s > 0.0);
-        back = back || (s->use[r] && f->mean_speed_rad_per_s < 0.0);
+        ahead = ahead || (s->use[r] && (f->both_ways || f->mean_speed_rad_per_s > 0.0));
+        back = back || (s->use[r] && (f->both_ways || f->mean_speed_rad_per_s < 0.0));
         x.has_turn = x.has_turn || (s->runs[r].turn_known && !is_part_of_turn(s, r));
         x.creeps = x.creeps || (s->use[r] && f->creeps && s->runs[r].torque_source == HCI_TORQUE_MEASURED);
         if (s->runs[r].time_s && s->runs[r].count > 0)

@@ -217,7 +217,7 @@ hci_dataset_range hci_dataset_range_of(const hci_dataset *b)
         const hci_run_statistics *f = &b->samples.statistics[r];
         x.torque_Nm = fmax(x.torque_Nm, torque_of_run(b, r));
         x.current_A = fmax(x.current_A, f->current_A);
-        x.speed_rad_per_s = fmax(x.speed_rad_per_s, fabs(f->mean_speed_rad_per_s));
+        x.speed_rad_per_s = fmax(x.speed_rad_per_s, f->pace_rad_per_s);
     }
     return x;
 }

@@ -250,7 +250,7 @@ static double nearest_run(const hci_regression *e, const hci_playable *p, const 
     for (size_t r = 0; r < e->samples->run_count; ++r) {
         const hci_run_statistics *f = &e->samples->statistics[r];
         if (!hci_segment_next(e->samples, r, NULL)) continue;
-        const bool stands = fabs(f->mean_speed_rad_per_s) < 0.5 * p->least_rad_per_s;
+        const bool stands = f->both_ways || fabs(f->mean_speed_rad_per_s) < 0.5 * p->least_rad_per_s;
         const place run = place_of(p, f->mean_id_A, f->no_current ? 0.0 : f->mean_iq_A, hci_run_speed(e, r),
                                    stands ? at->x[3] : sign_of(f->mean_speed_rad_per_s));
         nearest = fmin(nearest, distance(at, &run));

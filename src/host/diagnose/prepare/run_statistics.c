@@ -161,6 +161,36 @@ static bool is_direct(const hci_run *r, int pole_pairs, double turns)
     return whole > 0.0 && varies < STEADY * STEADY * whole;
 }
 
+/* Of a shaft without a torque sensor both ways are one test, which is read as a whole. */
+static bool goes_both_ways(const hci_run *r, int pole_pairs)
+{
+    const double turn_rad = 2.0 * HCI_PI / pole_pairs;
+    double least = INFINITY, most = -INFINITY, ahead_rad = 0.0, back_rad = 0.0;
+    if (r->torque_source != HCI_TORQUE_MEASURED || !r->speed_rad_per_s || !r->theta_m_rad) return false;
+    for (size_t k = 0; k < r->count; ++k) {
+        least = fmin(least, r->theta_m_rad[k]);
+        most = fmax(most, r->theta_m_rad[k]);
+        ahead_rad = fmax(ahead_rad, r->theta_m_rad[k] - least);
+        back_rad = fmax(back_rad, most - r->theta_m_rad[k]);
+    }
+    return ahead_rad > turn_rad && back_rad > turn_rad;
+}
+
+static void pace_find(const hci_run *r, int pole_pairs, hci_run_statistics *f)
+{
+    double mean = 0.0, square = 0.0;
+    f->both_ways = goes_both_ways(r, pole_pairs);
+    f->pace_rad_per_s = fabs(f->mean_speed_rad_per_s);
+    f->pace_deviation = f->speed_deviation;
+    for (size_t k = 0; f->both_ways && k < r->count; ++k) {
+        mean += fabs(r->speed_rad_per_s[k]) / (double)r->count;
+        square += r->speed_rad_per_s[k] * r->speed_rad_per_s[k] / (double)r->count;
+    }
+    if (!f->both_ways) return;
+    f->pace_rad_per_s = mean;
+    f->pace_deviation = sqrt(fmax(0.0, square - mean * mean));
+}
+
 hci_run_statistics hci_run_statistics_of(const hci_run *r, int pole_pairs)
 {
     hci_run_statistics f = {.repeat_Nm = NAN, .temperature_C = NAN, .coldest_C = NAN, .hottest_C = NAN};
@@ -171,6 +201,7 @@ hci_run_statistics hci_run_statistics_of(const hci_run *r, int pole_pairs)
     f.rms_torque_Nm = sqrt(f.rms_torque_Nm);
     f.current_A = sqrt(f.current_A);
     f.speed_deviation = sqrt(fmax(0.0, f.speed_deviation - f.mean_speed_rad_per_s * f.mean_speed_rad_per_s));
+    pace_find(r, pole_pairs, &f);
     f.no_current = is_noise(r, pole_pairs, f.standing_A);
     f.is_loaded = !f.no_current && hci_run_is_loaded(r, pole_pairs);
     if (f.no_current) f.current_A = f.mean_id_A = f.mean_iq_A = 0.0;

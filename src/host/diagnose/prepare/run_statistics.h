@@ -27,6 +27,9 @@ typedef struct {
     double mean_torque_Nm, rms_torque_Nm;
     double speed_deviation;                 /* rad/s, about the mean */
     double mean_speed_rad_per_s, current_A; /* root mean square of the current vector's length */
+    double pace_rad_per_s, pace_deviation;  /* the same of its size, where a shaft with a torque sensor turns
+                                             * both ways; else as the mean, without its sign, and about it */
+    bool both_ways;                         /* it does: an electrical turn or more each */
     double mean_id_A, mean_iq_A;
     double standing_A[3]; /* means of the phase currents over ten electrical turns or more; 0: fewer */
     bool stands;          /* besides them the currents are noise */

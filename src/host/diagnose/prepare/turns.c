@@ -99,7 +99,7 @@ static bool are_currents_alike(const hci_run_statistics *statistics, const hci_t
 bool hci_turns_alike(const hci_run *run, const hci_run_statistics *statistics, const hci_turn *a,
                      const hci_turn *b)
 {
-    const double most_speed = fabs(statistics->mean_speed_rad_per_s);
+    const double most_speed = statistics->pace_rad_per_s;
     return a->whole && b->whole && is_even(run, a) && is_even(run, b) &&
            direction_of_turn(run, a) == direction_of_turn(run, b) && are_currents_alike(statistics, a, b) &&
            fabs(a->speed - b->speed) <= STEADY * most_speed + 1e-12 &&

@@ -15,6 +15,7 @@
 #define NOTHING_LEFT 1.1   /* times the noise: an error in which nothing else is left */
 #define SHOWS        0.05  /* of the noise: torque that an effect has to make to be taken */
 #define SAME_LOAD    0.2   /* of the largest mean torque, by which others differ and tell nothing more */
+#define SEVERAL      0.3   /* of it, rms about the mean of a run, that loads one after the other make */
 #define BELIEVABLE   0.5   /* of the declared torque per ampere */
 
 static bool is_named(const hci_finding *f, hci_finding_verdict verdict)
@@ -176,6 +177,7 @@ static bool has_one_load(const hci_diagnosis *d)
         const double mean = d->run[k].mean_torque_Nm;
         if (d->run[k].source != HCI_TORQUE_MEASURED) return false;
         if (!(fabs(mean) > UNLOADED * largest)) continue;
+        if (d->run[k].torque_varies_Nm > SEVERAL * largest) return false;
         least = fmin(least, mean);
         most = fmax(most, mean);
     }

@@ -59,6 +59,32 @@ static void test_angle(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.5 * TURNS - 1.0 / PER_TURN, hci_run_statistics_of(&run, P).turns);
 }
 
+/* Both ways the speed is nothing on the mean, and its size is what it is; less than an electrical turn back
+ * is none, and a shaft without a torque sensor is one test. */
+static void test_both_ways(void)
+{
+    hci_run_statistics x = hci_run_statistics_of(&run, P);
+    TEST_ASSERT_FALSE(x.both_ways);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 50.0, x.pace_rad_per_s);
+    for (size_t k = N / 2; k < N; ++k) {
+        run.theta_m_rad[k] = run.theta_m_rad[N - 1 - k];
+        run.speed_rad_per_s[k] = 50.0;
+    }
+    x = hci_run_statistics_of(&run, P);
+    TEST_ASSERT_TRUE(x.both_ways);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, x.mean_speed_rad_per_s);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 50.0, x.pace_rad_per_s);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-4, 0.0, x.pace_deviation);
+    run.torque_source = HCI_TORQUE_HOLDING;
+    TEST_ASSERT_FALSE(hci_run_statistics_of(&run, P).both_ways);
+    run.torque_source = HCI_TORQUE_MEASURED;
+    run.count = N / 2 + PER_TURN / P - 2;
+    TEST_ASSERT_FALSE(hci_run_statistics_of(&run, P).both_ways);
+    run.count = N / 2 + PER_TURN / P + 2;
+    TEST_ASSERT_TRUE(hci_run_statistics_of(&run, P).both_ways);
+    run.count = N;
+}
+
 /* How well the torque repeats is its noise, not its ripple; two turns do not tell. */
 static void test_repeatability(void)
 {
@@ -163,6 +189,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_means);
     RUN_TEST(test_angle);
+    RUN_TEST(test_both_ways);
     RUN_TEST(test_repeatability);
     RUN_TEST(test_zeros_of_sensors);
     RUN_TEST(test_zeros_of_sensors_without_a_clock);

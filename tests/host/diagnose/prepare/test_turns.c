@@ -17,7 +17,7 @@ static size_t count;
 
 void setUp(void)
 {
-    statistics = (hci_run_statistics){.current_A = 10.0, .mean_speed_rad_per_s = 50.0};
+    statistics = (hci_run_statistics){.current_A = 10.0, .pace_rad_per_s = 50.0};
     turns = NULL;
 }
 

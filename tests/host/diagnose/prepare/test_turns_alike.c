@@ -21,7 +21,7 @@ void setUp(void)
     run.temperature_C = calloc(run.count, sizeof *run.temperature_C);
     for (size_t k = 0; k < run.count; ++k)
         run.theta_m_rad[k] = 2.0 * REF_PI * ((double)k + 0.3) / 100.0;
-    statistics = (hci_run_statistics){.mean_speed_rad_per_s = -50.0, .current_A = 5.0, .repeat_Nm = 0.1};
+    statistics = (hci_run_statistics){.pace_rad_per_s = 50.0, .current_A = 5.0, .repeat_Nm = 0.1};
     for (size_t k = 0; k < COUNT; ++k) {
         turn[k] =
             (hci_turn){.first = 100 * k, .count = 100, .d = -3.0, .q = 4.0, .speed = 50.0, .whole = true};

@@ -309,6 +309,11 @@ static void test_one_load(void)
     run[2].mean_torque_Nm = -1.0;
     TEST_ASSERT_FALSE(says(SAID));
     run[2].mean_torque_Nm = 1.0;
+    run[2].torque_varies_Nm = 0.29;
+    TEST_ASSERT_TRUE(says(SAID));
+    run[2].torque_varies_Nm = 0.31;
+    TEST_ASSERT_FALSE(says(SAID));
+    run[2].torque_varies_Nm = 0.0;
     run[0].source = HCI_TORQUE_HOLDING;
     TEST_ASSERT_FALSE(says(SAID));
     run[0].source = HCI_TORQUE_MEASURED;
