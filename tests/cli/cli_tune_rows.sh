@@ -38,6 +38,14 @@ run 1 tune idle.csv one.csv half.csv $motor -o two
 says '^tuned.*falls to at most 0\.00[0-9]* N·m on the machine'
 check "one load, of two" [ "$(grep -c 'All loads are of one size' "$work/stdout")" -eq 0 ]
 
+# ---- current sensors that end at 3.7 A: what they do not show is taken from the two others, and said with rows, value and remedy
+
+awk -F, -v OFS=, 'NR > 1 { for (k = 3; k <= 5; ++k) $k = $k > 3.7 ? "3.7000" : $k < -3.7 ? "-3.7000" : $k } 1' one.csv >ended.csv
+run 1 tune idle.csv ended.csv half.csv $motor -o ended
+says '^tuned.*falls to at most 0\.0[0-9]* N·m on the machine' 'phase currents are clipped: in [12][0-9]* of 3072 rows one stands at -3.7$' \
+    'is taken from the two others' 'sensors of a wider range would show it'
+check "a slow channel, of sensors at their end" [ "$(grep -c 'read less often' "$work/stdout")" -eq 0 ]
+
 # ---- there and back in one file, with a pause in which the shaft is turned on: one speed, of which the sign tells friction from the sensor's zero
 
 # FILE SPEED_COLUMN: 12 turns of 4 s each way, a torque sensor of 0.02 N·m behind a friction of 0.03.

@@ -343,6 +343,116 @@ static void leave_clipped_out(rows_task *t, const double *torque_Nm)
     t->c->torque_is_clipped = true;
 }
 
+/* ---- phase currents at the end of their sensors ---- */
+
+#define SUM_LEFT 0.3 /* of the sum of three currents where one is at its end, that is left elsewhere */
+
+enum { THREE = 3 };
+
+typedef struct {
+    double *phase[THREE];
+    double rail[THREE][2];     /* least and largest of each, A; infinite where it does not stay there */
+    size_t one, several;       /* rows with one, and with more of them at its end */
+    size_t elsewhere;          /* rows with none */
+    double sum_one, sum_other; /* squares of the sum of the three, over these and over those with none */
+} clipped_currents;
+
+/* How many of three stand at an end. which: out, the last of them. */
+static size_t at_ends(const clipped_currents *x, size_t row, size_t *which)
+{
+    size_t count = 0;
+    for (size_t s = 0; s < THREE; ++s) {
+        if (!is_at_rail(x->rail[s], x->phase[s][row])) continue;
+        *which = s;
+        ++count;
+    }
+    return count;
+}
+
+static void ends_count(const rows_task *t, clipped_currents *x)
+{
+    for (size_t k = 0; k < t->rows; ++k) {
+        size_t which = 0;
+        if (!t->is_left[k]) continue;
+        const size_t count = at_ends(x, k, &which);
+        const double sum_A = x->phase[0][k] + x->phase[1][k] + x->phase[2][k];
+        x->one += count == 1;
+        x->several += count > 1;
+        x->elsewhere += count == 0;
+        if (count == 0) x->sum_other += sum_A * sum_A;
+        if (count == 1) x->sum_one += sum_A * sum_A;
+    }
+}
+
+/* Whether the three make no sum but where one of them is at its end: its sensor ends there, and the current
+ * goes on. Of currents that a drive limits the sum is the same. */
+static bool sum_tells(const clipped_currents *x)
+{
+    const double elsewhere = (double)x->elsewhere, one = (double)x->one;
+    return x->elsewhere >= LEAST_FRESH && x->one > 0 &&
+           x->sum_other / elsewhere < SUM_LEFT * SUM_LEFT * x->sum_one / one;
+}
+
+/* Puts in each what the two others leave to a sum of nothing, and leaves out where two are at their ends. */
+static void clipped_mend(rows_task *t, const clipped_currents *x)
+{
+    for (size_t k = 0; k < t->rows; ++k) {
+        size_t s = 0;
+        const size_t count = t->is_left[k] ? at_ends(x, k, &s) : 0;
+        if (count == 1) x->phase[s][k] = -x->phase[(s + 1) % THREE][k] - x->phase[(s + 2) % THREE][k];
+        if (count > 1) t->is_left[k] = false;
+    }
+    t->still += x->several;
+}
+
+/* "-3.5 A or 3.5 A" */
+static void ends_text(const clipped_currents *x, char *text, size_t size)
+{
+    double least = INFINITY, most = -INFINITY;
+    for (size_t s = 0; s < THREE; ++s) {
+        if (isfinite(x->rail[s][0])) least = fmin(least, x->rail[s][0]);
+        if (isfinite(x->rail[s][1])) most = fmax(most, x->rail[s][1]);
+    }
+    text[0] = '\0';
+    if (isfinite(least)) snprintf(text, size, "%.4g A", least);
+    if (isfinite(most))
+        snprintf(text + strlen(text), size - strlen(text), "%s%.4g A", *text ? " or " : "", most);
+}
+
+static void say_mended(const rows_task *t, const clipped_currents *x)
+{
+    char ends[64];
+    ends_text(x, ends, sizeof ends);
+    hci_note_add(
+        t->c->remark,
+        "phase currents are clipped: in %zu of %zu rows one stands at %s, as of a sensor at its end, "
+        "and is taken from the two others, with which it makes no sum elsewhere; sensors of a wider "
+        "range would show it",
+        x->one, t->rows, ends);
+    if (x->several > 0)
+        hci_note_add(t->c->remark, "%zu rows in which two of them do are left out", x->several);
+}
+
+/* Of three phase currents, of which some stay at their ends. */
+static void mend_clipped_currents(rows_task *t)
+{
+    clipped_currents x = {
+        .phase = {t->c->ready[HCI_RUN_IA], t->c->ready[HCI_RUN_IB], t->c->ready[HCI_RUN_IC]}};
+    bool any = false;
+    for (size_t s = 0; s < THREE; ++s) {
+        if (!x.phase[s]) return;
+        rails_find(t, x.phase[s], x.rail[s]);
+        const bool clipped = is_clipped(t, x.phase[s], x.rail[s]);
+        if (!clipped) x.rail[s][0] = -HUGE_VAL, x.rail[s][1] = HUGE_VAL;
+        any = any || clipped;
+    }
+    if (!any) return;
+    ends_count(t, &x);
+    if (!sum_tells(&x)) return;
+    clipped_mend(t, &x);
+    say_mended(t, &x);
+}
+
 /* ---- readings that stay ---- */
 
 static hci_status leave_still_out(rows_task *t, const readings *x)
@@ -470,6 +580,7 @@ static hci_status leave_all_still_out(rows_task *t)
     if (status) return status;
     if (torque.column[0]) leave_clipped_out(t, torque.column[0]);
     if (torque.column[0]) status = leave_still_out(t, &torque);
+    mend_clipped_currents(t);
     if (!status && currents.columns > 1) status = leave_still_out(t, &currents);
     return status;
 }

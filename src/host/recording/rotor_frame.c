@@ -93,7 +93,7 @@ static double value_of(const hci_run *run, int which, size_t k)
 }
 
 /* Of the crests of one sign. */
-static bool is_cut(const hci_run *run, int which, double sign)
+static bool is_cut(const hci_run *run, int which, double sign, hci_run_crests *crests)
 {
     double most_A = 0.0, at = 0.0, near = 0.0;
     for (size_t k = 0; k < run->count; ++k)
@@ -103,14 +103,15 @@ static bool is_cut(const hci_run *run, int which, double sign)
         at += below < ALIKE;
         near += below >= ALIKE && below < NEAR;
     }
+    *crests = (hci_run_crests){sign * most_A, (size_t)at, which == PHASES};
     return at > SHARE * (double)run->count && at < HALF * (double)run->count && at > TIMES * near &&
            near > 0.0;
 }
 
-bool hci_run_is_clipped(const hci_run *run)
+bool hci_run_is_clipped(const hci_run *run, hci_run_crests *crests)
 {
     if (!run->i_A || !run->theta_m_rad || run->count < LEAST) return false;
     for (int which = 0; which <= PHASES; ++which)
-        if (is_cut(run, which, 1.0) || is_cut(run, which, -1.0)) return true;
+        if (is_cut(run, which, 1.0, crests) || is_cut(run, which, -1.0, crests)) return true;
     return false;
 }

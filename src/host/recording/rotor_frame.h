@@ -26,10 +26,17 @@ bool hci_run_currents_in_line(const hci_run *run, double *iq_share);
  * angle. False where rows lie too far apart. O(samples). */
 bool hci_run_currents_go_otherwise(const hci_run *run, double *turns);
 
+/* Where crests of a current stand. */
+typedef struct {
+    double at_A;
+    size_t rows; /* that do */
+    bool of_iq;  /* else of a phase */
+} hci_run_crests;
+
 /* Whether a phase current or i_q stands at its least or its largest value in 1 % of the samples or more, and
  * in fewer than half of them, and five times as often as within a twentieth of it, where there are some: a
  * current that was rounded coarsely stands at its other values as well. Before anything is taken out of the
- * current. O(samples). */
-bool hci_run_is_clipped(const hci_run *run);
+ * current. crests: out, the first that do. O(samples). */
+bool hci_run_is_clipped(const hci_run *run, hci_run_crests *crests);
 
 #endif

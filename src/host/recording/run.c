@@ -595,12 +595,14 @@ static bool nothing_turns(const hci_run *run)
 static void say_clipped(reader *r)
 {
     hci_run *run = r->run;
-    run->is_clipped = hci_run_is_clipped(run);
+    hci_run_crests crests = {0};
+    run->is_clipped = hci_run_is_clipped(run, &crests);
     if (run->is_clipped)
-        hci_note_add(
-            &run->remark,
-            "the crests of the current are all of one value, as of a limit or of a sensor at its end: "
-            "what is above is missing in all that the current tells");
+        hci_note_add(&run->remark,
+                     "the crests of the current are all of one value, %.4g A of %s in %zu of %zu rows, as of "
+                     "a limit or of a sensor at its end: what is above is missing in all that the current "
+                     "tells; a sensor of a wider range or a smaller load shows it",
+                     crests.at_A, crests.of_iq ? "i_q" : "a phase", crests.rows, run->count);
 }
 
 /* Frees a torque of 0 of a machine whose terminals are open: what turns it is not its current, so that it is

@@ -374,6 +374,54 @@ static void test_a_clipped_torque_is_told(void)
     TEST_ASSERT_FALSE(run.torque_is_clipped);
 }
 
+/* Three currents of 1 A whose phases a and b end at `end`: by their sensors, or `limited` by the drive, so
+ * that c takes what they do not. */
+static void read_ended(double end, bool limited)
+{
+    char *text = malloc(ROWS * 90);
+    size_t at = (size_t)sprintf(text, "time_s,theta_m_rad,ia_A,ib_A,ic_A,torque_Nm\n");
+    uint64_t seed = 3;
+    TEST_ASSERT_NOT_NULL(text);
+    for (int k = 0; k < ROWS; ++k) {
+        const double theta = 0.02 * k;
+        const double a = sin(theta) + 1e-3 * ref_normal(&seed), b = sin(theta - 2.0943951);
+        const double ends[] = {fmin(end, fmax(-end, a)), fmin(end, fmax(-end, b))};
+        at += (size_t)sprintf(text + at, "%g,%.9g,%.6g,%.6g,%.6g,%.6g\n", 1e-3 * k, theta, ends[0], ends[1],
+                              limited ? -ends[0] - ends[1] : sin(theta + 2.0943951), ref_normal(&seed));
+    }
+    read_text(text);
+    free(text);
+}
+
+/* What the sensor of one phase does not show the two others do, where the sum says that it goes on. */
+static void test_a_clipped_current_is_taken_from_the_others(void)
+{
+    read_ended(0.9, false);
+    text_has("phase currents are clipped: in 7", run.remark.text);
+    text_has("of 1200 rows one stands at -0.9 A or 0.9 A", run.remark.text);
+    TEST_ASSERT_EQUAL_UINT64(ROWS, run.count);
+    TEST_ASSERT_FALSE(run.is_clipped);
+    for (size_t k = 0; k < run.count; ++k)
+        for (size_t s = 0; s < 2; ++s)
+            TEST_ASSERT_DOUBLE_WITHIN(6e-3, sin(run.theta_m_rad[k] - (double)s * 2.0943951),
+                                      run.i_A[3 * k + s]);
+    read_ended(0.9, true);
+    TEST_ASSERT_NULL(strstr(run.remark.text, "phase currents are clipped"));
+    text_has("the crests of the current are all of one value", run.remark.text);
+    text_has("0.9 A of a phase in 180 of 1200 rows", run.remark.text);
+    TEST_ASSERT_TRUE(run.is_clipped);
+}
+
+/* Of two at their ends neither is told. */
+static void test_rows_of_two_clipped_currents_are_left_out(void)
+{
+    read_ended(0.6, false);
+    text_has("rows in which two of them do are left out", run.remark.text);
+    TEST_ASSERT_TRUE(run.count < ROWS - 100);
+    for (size_t k = 0; k < run.count; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(6e-3, sin(run.theta_m_rad[k]), run.i_A[3 * k]);
+}
+
 /* At the beginning, in the middle or at the end of a turn. */
 static void test_rows_of_a_shaft_that_stands_are_left_out(void)
 {
@@ -409,6 +457,8 @@ int main(void)
     RUN_TEST(test_a_torque_without_ripple_stays);
     RUN_TEST(test_a_coarse_torque_stays);
     RUN_TEST(test_a_clipped_torque_is_told);
+    RUN_TEST(test_a_clipped_current_is_taken_from_the_others);
+    RUN_TEST(test_rows_of_two_clipped_currents_are_left_out);
     RUN_TEST(test_rows_of_a_shaft_that_stands_are_left_out);
     RUN_TEST(test_memory_runs_out_everywhere);
     return UNITY_END();

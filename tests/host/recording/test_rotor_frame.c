@@ -156,6 +156,8 @@ static void test_currents_that_cannot_go_otherwise(void)
 
 /* ---- crests ---- */
 
+static hci_run_crests crests;
+
 /* One phase that stands at its largest value in `at` rows, is within 5 % of it in `near`, and smaller in the
  * others. */
 static bool is_clipped(size_t rows, size_t at, size_t near, int phase, double sign)
@@ -171,7 +173,7 @@ static bool is_clipped(size_t rows, size_t at, size_t near, int phase, double si
                                                  : k < at + near ? 3.81 + 0.1 * ref_uniform(&seed, 0.0, 1.0)
                                                                  : 3.0 * ref_uniform(&seed, 0.0, 1.0));
     }
-    const bool found = hci_run_is_clipped(&run);
+    const bool found = hci_run_is_clipped(&run, &crests);
     rec_release(&run);
     return found;
 }
@@ -182,6 +184,9 @@ static void test_crests_that_are_cut(void)
     for (int phase = 0; phase < 3; ++phase)
         for (int sign = -1; sign <= 1; sign += 2) {
             TEST_ASSERT_TRUE(is_clipped(2000, 21, 4, phase, sign));
+            TEST_ASSERT_DOUBLE_WITHIN(1e-9, 4.0 * sign, crests.at_A);
+            TEST_ASSERT_EQUAL_UINT64(21, crests.rows);
+            TEST_ASSERT_FALSE(crests.of_iq);
             TEST_ASSERT_FALSE(is_clipped(2000, 19, 3, phase, sign));
             TEST_ASSERT_FALSE(is_clipped(2000, 21, 5, phase, sign));
             TEST_ASSERT_FALSE(is_clipped(2000, 21, 0, phase, sign));
@@ -201,10 +206,10 @@ static void test_a_current_along_q_that_is_cut(void)
         run.theta_m_rad[k] = 0.37 * (double)k;
         rec_phases(0.0, fmin(0.5, sin(0.01 * (double)k)), P * run.theta_m_rad[k], run.i_A + 3 * k);
     }
-    TEST_ASSERT_TRUE(hci_run_is_clipped(&run));
+    TEST_ASSERT_TRUE(hci_run_is_clipped(&run, &crests) && crests.of_iq);
     for (size_t k = 0; k < run.count; ++k)
         rec_phases(0.0, sin(0.01 * (double)k), P * run.theta_m_rad[k], run.i_A + 3 * k);
-    TEST_ASSERT_FALSE(hci_run_is_clipped(&run));
+    TEST_ASSERT_FALSE(hci_run_is_clipped(&run, &crests));
     rec_release(&run);
 }
 
