@@ -297,10 +297,17 @@ double cli_tune_largest_recorded_A(const cli_tuning *t)
  * recorded. */
 #define FAR_BEYOND 100.0
 
+/* Noise and zeros of sensors are no current that a rating could be held against. */
+static bool no_current_flowed(const cli_tuning *t)
+{
+    return t->diagnosis.zeros_read + t->diagnosis.only_noise == t->runs.count;
+}
+
 bool cli_tune_is_far_beyond(const cli_tuning *t)
 {
     const double most_A = cli_tune_largest_recorded_A(t);
-    return t->is_solved && most_A > 0.0 && t->solution.peak_phase_current_A > FAR_BEYOND * most_A;
+    return t->is_solved && most_A > 0.0 && !no_current_flowed(t) &&
+           t->solution.peak_phase_current_A > FAR_BEYOND * most_A;
 }
 
 bool cli_tune_is_below_idle(const cli_tuning *t)

@@ -79,6 +79,24 @@ static double common_gain(const cli_tuning *t)
     return 0.0;
 }
 
+static bool is_offset(const hci_effect *e)
+{
+    return e->type->correction && e->type->correction->after &&
+           strstr(e->type->correction->after, " A from i_");
+}
+
+/* Torque of order 1 that the offsets of the phases make, N·m, peak. */
+static double offsets_Nm(const cli_tuning *t)
+{
+    const hci_effects *list = &t->diagnosis.effects.list;
+    double offset_A[3] = {0.0, 0.0, 0.0};
+    for (size_t k = 0; k < list->count; ++k)
+        for (size_t j = 0; is_offset(&list->effect[k]) && j < list->effect[k].count; ++j)
+            offset_A[list->effect[k].term[j].parameter] += list->effect[k].term[j].value;
+    const hci_alpha_beta i = hci_clarke(offset_A);
+    return hypot(i.alpha, i.beta) * t->reading.run.torque_constant_Nm_per_A;
+}
+
 /* Torque is back-EMF times current: a sensor of the torque does not tell a share of the one from one of the
  * other, nor from one of its own. */
 static void append_of_gain(cli_tuning *t)
@@ -99,10 +117,12 @@ static void append_of_gain(cli_tuning *t)
             "is %.2g %% %s then: a torque sensor does not tell the two apart, and voltages of the open "
             "machine do",
             100.0 * fabs(gain), 100.0 * fabs(other), other < 0.0 ? "smaller" : "larger");
-    if (strstr(t->solution.corrections, " A from i_"))
+    if (strstr(t->solution.corrections, " A from i_") || strstr(t->solution.corrections, " A to i_"))
         cli_tune_caveat(
-            t, "The offsets of the currents are those of the logs: a drive that nulls its sensors at each "
-               "start has others");
+            t,
+            "The offsets of the currents are those of the logs: a drive that nulls its sensors at each start "
+            "has others (these make %.2g N·m once an electrical turn, whatever the load)",
+            offsets_Nm(t));
 }
 
 /* How early a channel is read that a drive can correct, s; 0: none is. */
@@ -257,7 +277,7 @@ static void append_of_ratings(cli_tuning *t)
     if (cli_tune_is_far_beyond(t))
         cli_tune_caveat(
             t,
-            "The peak current of the table, %.3g A, is %.2g times the largest recorded one, %.3g A: are "
+            "The peak current of the table, %.3g A, is %.3g times the largest recorded one, %.3g A: are "
             "the rated "
             "current and the torque in A and N·m?",
             t->solution.peak_phase_current_A,

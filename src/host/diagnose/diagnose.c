@@ -92,8 +92,10 @@ static void zeros_fill(const hci_binned_samples *samples, hci_diagnosis *d)
 {
     d->zeros_read = 0;
     d->zeros_read_A = 0.0;
+    d->only_noise = 0;
     for (size_t r = 0; r < samples->run_count; ++r) {
         const hci_run_statistics *x = &samples->statistics[r];
+        d->only_noise += x->no_current;
         if (!x->zeros_read) continue;
         ++d->zeros_read;
         for (size_t s = 0; s < 3; ++s)

@@ -37,7 +37,7 @@ static void words_of(const char *rows)
 static void test_currents(void)
 {
     words_of("current_gain,b,-0.02,1,\ncurrent_offset,a,0.05,A,\ncurrent_offset,c,-0.04,A,\n");
-    TEST_ASSERT_EQUAL_STRING("divide i_b by 0.98, subtract 0.05 A from i_a, subtract -0.04 A from i_c", text);
+    TEST_ASSERT_EQUAL_STRING("divide i_b by 0.98, subtract 0.05 A from i_a, add 0.04 A to i_c", text);
 }
 
 static void test_angles(void)
@@ -45,6 +45,20 @@ static void test_angles(void)
     words_of("position_eccentricity,mech_cosine_1,0.003,rad,\nposition_offset,angle,0.02,rad,\n");
     TEST_ASSERT_NOT_NULL(strstr(text, "subtract 0.02 rad from the electrical angle"));
     TEST_ASSERT_NOT_NULL(strstr(text, "subtract from the mechanical angle 0.003 rad cos(1 theta_m)"));
+}
+
+/* What is below 0 is added, and no digits are said that recordings do not carry. */
+static void test_signs_and_digits(void)
+{
+    words_of("position_eccentricity,mech_sine_1,-0.00312345,rad,\nposition_offset,angle,-0.0212345,rad,\n");
+    TEST_ASSERT_NOT_NULL(strstr(text, "add 0.0212 rad to the electrical angle"));
+    TEST_ASSERT_NOT_NULL(strstr(text, "add to the mechanical angle 0.00312 rad sin(1 theta_m)"));
+}
+
+static void test_digits_of_a_gain(void)
+{
+    words_of("current_gain,b,-0.0123456,1,\n");
+    TEST_ASSERT_EQUAL_STRING("divide i_b by 0.98765", text);
 }
 
 static void test_an_angle_is_late(void)
@@ -81,6 +95,8 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_currents);
     RUN_TEST(test_angles);
+    RUN_TEST(test_signs_and_digits);
+    RUN_TEST(test_digits_of_a_gain);
     RUN_TEST(test_an_angle_is_late);
     RUN_TEST(test_an_angle_is_not_early);
     RUN_TEST(test_torque_sensors_are_none_of_a_drive);

@@ -174,6 +174,7 @@ typedef struct {
     double drift_Nm;     /* the largest of them, from its least to its largest in the run */
     size_t zeros_read;   /* runs in which all that was read as current is the zeros of the sensors */
     double zeros_read_A; /* the largest of them */
+    size_t only_noise;   /* further runs in which it is the noise of the sensors, and stands at nothing */
     double rms_before_Nm, rms_after_Nm, noise_Nm;                 /* of the runs that were fitted */
     double holdout_before_Nm, holdout_after_Nm, holdout_noise_Nm; /* NAN without such runs */
     double holdout_mean_before_Nm, holdout_mean_after_Nm;         /* rms of the mean errors of these runs */

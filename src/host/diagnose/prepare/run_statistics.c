@@ -4,6 +4,7 @@
 
 #include "hci/math/harmonic.h"
 #include "host/numeric/angle_bins.h"
+#include "host/numeric/statistics.h"
 #include "host/recording/rotor_frame.h"
 
 #define ROUNDING_RAD 1e-7 /* a step of angle up to this is none */
@@ -23,7 +24,9 @@ enum {
     LEAST_PER_RANGE = 4,
     LEAST_PERIODS = 10,
     MOST_STEPS = 20000,
-    ENOUGH = 4096
+    ENOUGH = 4096,
+    PARTS = 16, /* of an electrical turn */
+    FORGOTTEN = 3
 };
 
 /* The smallest step between neighbours that is not rounding. */
@@ -113,23 +116,41 @@ static bool is_in_order(const hci_run *r)
     return square < EVEN * EVEN * mean * mean * steps;
 }
 
-/* Whether the current besides a standing part is nothing but noise: white, so that neighbours have nothing in
- * common, while a current that flows is much the same from one sample to the next. In a holding test the
- * current is what was measured. */
-static bool is_noise(const hci_run *r, int pole_pairs, const double standing_A[3])
+/* The share that currents so many samples apart have in common, besides a standing part; that of the first
+ * ones, where they have much. */
+static double common_share(const hci_run *r, int pole_pairs, const double standing_A[3], size_t apart)
 {
-    const double n = (double)r->count;
     double common = 0.0, square = 0.0;
-    if (r->count < LEAST_SAMPLES || r->torque_source == HCI_TORQUE_HOLDING || !is_in_order(r)) return false;
-    hci_dq before = moving_dq(r, pole_pairs, 0, standing_A);
-    for (size_t k = 1; k < r->count; ++k) {
+    for (size_t k = apart; k < r->count; ++k) {
         const hci_dq i = moving_dq(r, pole_pairs, k, standing_A);
+        const hci_dq before = moving_dq(r, pole_pairs, k - apart, standing_A);
         common += i.d * before.d + i.q * before.q;
         square += i.d * i.d + i.q * i.q;
-        before = i;
-        if (k % ENOUGH == 0 && common > FLOWS * square) return false;
+        if (k % ENOUGH == 0 && common > FLOWS * square) break;
     }
-    return common < (COMMON + CHANCE / sqrt(2.0 * n)) * square;
+    return square > 0.0 ? common / square : 1.0;
+}
+
+/* A part of an electrical turn, in samples: noise that was filtered is forgotten behind it, and a current
+ * that flows is much the same. */
+static size_t part_of_turn(const hci_run *r, int pole_pairs)
+{
+    const double way_rad = r->theta_m_rad ? pole_pairs * hci_peak_to_peak(r->theta_m_rad, r->count) : 0.0;
+    return way_rad > 0.0 ? (size_t)((double)r->count * 2.0 * HCI_PI / (way_rad * PARTS)) : 0;
+}
+
+/* Whether the current besides a standing part is nothing but noise: white, so that neighbours have nothing in
+ * common, while a current that flows is much the same from one sample to the next; or filtered, so that
+ * samples a part of a turn apart have not. In a holding test the current is what was measured. */
+static bool is_noise(const hci_run *r, int pole_pairs, const double standing_A[3])
+{
+    const double chance = COMMON + CHANCE / sqrt(2.0 * (double)r->count);
+    if (r->count < LEAST_SAMPLES || r->torque_source == HCI_TORQUE_HOLDING || !is_in_order(r)) return false;
+    if (common_share(r, pole_pairs, standing_A, 1) < chance) return true;
+    const size_t part = part_of_turn(r, pole_pairs);
+    for (size_t n = 1; n <= FORGOTTEN && part > 1; ++n)
+        if (!(fabs(common_share(r, pole_pairs, standing_A, n * part)) < chance)) return false;
+    return part > 1;
 }
 
 /* Means of the phase currents of a shaft that turns: of a sine they are next to nothing in so many periods.

@@ -124,6 +124,32 @@ static void test_zeros_of_sensors(void)
     TEST_ASSERT_TRUE(x[0].zeros_read && !x[1].zeros_read);
 }
 
+/* Noise that went through a filter of `keeps` of the reading before, beside a current of `flows` at `order`
+ * of the rotor frame. */
+static bool is_filtered_noise(double keeps, double flows, double order)
+{
+    double last_A[3] = {0.0};
+    for (size_t k = 0; k < N; ++k) {
+        double i_A[3];
+        rec_phases(0.0, flows * cos(order * P * run.theta_m_rad[k]), P * run.theta_m_rad[k], i_A);
+        for (size_t s = 0; s < 3; ++s) {
+            last_A[s] = keeps * last_A[s] + NOISE_A * ref_normal(&seed);
+            run.i_A[3 * k + s] = i_A[s] + last_A[s];
+        }
+    }
+    return hci_run_statistics_of(&run, P).no_current;
+}
+
+/* It is forgotten in a part of a turn, of which a current that flows is the same or turned about. */
+static void test_filtered_noise(void)
+{
+    TEST_ASSERT_TRUE(is_filtered_noise(0.6, 0.0, 0.0));
+    TEST_ASSERT_FALSE(is_filtered_noise(0.98, 0.0, 0.0));
+    for (double order = 0.0; order < 33.0; order += 1.0)
+        TEST_ASSERT_FALSE(is_filtered_noise(0.6, NOISE_A, order));
+    TEST_ASSERT_TRUE(is_filtered_noise(0.6, 0.05 * NOISE_A, 0.0));
+}
+
 /* Rows without a clock are in order where a rotor was read at even steps of its turn, and need not be where
  * the angle goes about: there each row may have a current of its own. */
 static void test_zeros_of_sensors_without_a_clock(void)
@@ -192,6 +218,7 @@ int main(void)
     RUN_TEST(test_both_ways);
     RUN_TEST(test_repeatability);
     RUN_TEST(test_zeros_of_sensors);
+    RUN_TEST(test_filtered_noise);
     RUN_TEST(test_zeros_of_sensors_without_a_clock);
     RUN_TEST(test_a_current_that_flows_is_no_zero);
     RUN_TEST(test_nothing_is_there);
