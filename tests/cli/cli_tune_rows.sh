@@ -39,6 +39,14 @@ run 1 tune idle.csv one.csv half.csv $motor -o two
 says '^tuned.*falls to at most 0\.00[0-9]* N·m on the machine'
 check "one load, of two" [ "$(grep -c 'All loads are of one size' "$work/stdout")" -eq 0 ]
 
+# ---- phase currents that swing are no rms values, whatever their header says, unless the user does
+
+for log in idle one half; do sed '1s/\(i[abc]\)_A/\1 [Aeff]/g' $log.csv >$log.eff.csv; done
+run 1 tune idle.eff.csv one.eff.csv half.eff.csv $motor -o eff
+says '^tuned.*falls to at most 0\.00[0-9]* N·m on the machine' 'phase currents up to 4\.0' 'swings to both' 'over √2 say' '^  conventions: consistent'
+run 1 check eff/machine one.eff.csv --column 'ia_Arms=ia [Aeff]' --column 'ib_Arms=ib [Aeff]' --column 'ic_Arms=ic [Aeff]'
+check "a user who says rms and is not heard" [ "$(grep -c 'swings to both' "$work/stdout")" -eq 0 ]
+
 # ---- zeros of sensors behind a filter: its noise is no current, against which nothing is held, and the zeros and what they make are told
 
 awk 'function noise() { return rand() + rand() + rand() + rand() - 2 }

@@ -681,11 +681,58 @@ bool hci_run_voltages(const hci_run_columns *c, hci_run_column *first)
     return hci_run_phase_count(c, *first) >= 2;
 }
 
+/* ---- phase currents in amperes rms ---- */
+
+#define BOTH_SIDES 0.3 /* of the largest of both ends, that a current which swings has at each */
+
+/* In amperes rms by the file, and not by what the user says. */
+static bool is_in_rms(const hci_run_columns *c, hci_run_column which)
+{
+    for (size_t k = 0; k < c->csv->given_count; ++k)
+        if (c->csv->given[k].column == c->at[which]) return false;
+    const hci_unit *unit = c->has[which] ? hci_column_unit(c->csv, c->at[which]) : NULL;
+    return unit != NULL && hci_unit_equal(unit, hci_unit_find("Arms", 4));
+}
+
+static bool swings(const double *value, size_t count)
+{
+    double least = INFINITY, most = -INFINITY;
+    for (size_t k = 0; k < count; ++k) {
+        least = fmin(least, value[k]);
+        most = fmax(most, value[k]);
+    }
+    return fmin(-least, most) > BOTH_SIDES * fmax(-least, most);
+}
+
+/* An rms value has one sign: one that swings to both sides stands for itself. */
+static void take_instantaneous(hci_run_columns *c, hci_run_column which)
+{
+    char quoted[HCI_QUOTE_SIZE];
+    double *value = c->value[which];
+    if (!value || c->is_instantaneous[which - HCI_RUN_IA] || !is_in_rms(c, which) || !swings(value, c->count))
+        return;
+    const double factor = hci_run_column_factor(c, which);
+    for (size_t k = 0; k < c->count; ++k)
+        value[k] /= factor;
+    const bool said = c->is_instantaneous[0] || c->is_instantaneous[1] || c->is_instantaneous[2];
+    c->is_instantaneous[which - HCI_RUN_IA] = true;
+    const char *name = hci_csv_name(c->csv, c->at[which]);
+    if (!said)
+        hci_note_add(
+            c->remark,
+            "%s swings to both sides of 0, as no rms value does: phase currents that do are read in A "
+            "as they stand; of a drive that logs them over √2 say --column '%.2s_Arms=%.60s', and so "
+            "of each",
+            hci_quote(name, quoted), NAME[which], name);
+}
+
 hci_status hci_run_phases_read(hci_run_columns *c, hci_run_column first)
 {
     hci_status status = HCI_OK;
-    for (unsigned s = 0; s < 3 && !status; ++s)
+    for (unsigned s = 0; s < 3 && !status; ++s) {
         status = hci_run_column_read(c, first + s);
+        if (!status && first == HCI_RUN_IA) take_instantaneous(c, first + s);
+    }
     return status;
 }
 

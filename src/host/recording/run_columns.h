@@ -48,10 +48,11 @@ typedef struct {
     size_t at[HCI_RUN_COLUMN_COUNT];     /* column of the file, where it has one */
     double *value[HCI_RUN_COLUMN_COUNT]; /* [count], in the unit of the name; NULL: absent, or not yet read */
     double *ready[HCI_RUN_COLUMN_COUNT]; /* [count], read while looking for holes, and not asked for yet */
-    bool torque_is_clipped;              /* rows with the torque at its least or largest value are left out */
-    char time_like[HCI_RUN_NAME];        /* as --column takes it, what may be the time, which was not read */
-    bool *used;                          /* of each column of the file */
-    hci_note *remark, *note;             /* the caller's: what was supposed; the error */
+    bool is_instantaneous[3];     /* of each phase current in amperes rms: it is none, and was taken so */
+    bool torque_is_clipped;       /* rows with the torque at its least or largest value are left out */
+    char time_like[HCI_RUN_NAME]; /* as --column takes it, what may be the time, which was not read */
+    bool *used;                   /* of each column of the file */
+    hci_note *remark, *note;      /* the caller's: what was supposed; the error */
 } hci_run_columns;
 
 /* Finds the columns and reads none. remark: out, what was supposed on reading, now and later; starts with

@@ -383,6 +383,33 @@ static void test_a_bare_angle_is_what_turns_as_fast_as_the_speed(void)
     }
 }
 
+/* ---- phase currents in amperes rms ---- */
+
+static void expect_phases(double a_A, double b_A)
+{
+    for (int times = 0; times < 2; ++times) /* read again they are the same */
+        TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_run_phases_read(&columns, HCI_RUN_IA), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, a_A, columns.value[HCI_RUN_IA][0]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, b_A, columns.value[HCI_RUN_IB][0]);
+}
+
+/* What swings to both sides is no rms value, however the header has it. */
+static void test_currents_that_swing_are_no_rms_values(void)
+{
+    find("theta_m_rad,ia_Arms,ib [Aeff]\n0,2,-1\n1,-1.5,2\n2,1,0.5\n");
+    expect_phases(2.0, -1.0);
+    TEST_ASSERT_NOT_NULL(strstr(remark.text, "`ia_Arms` swings to both sides of 0"));
+    TEST_ASSERT_NULL(strstr(remark.text, "`ib [Aeff]` swings"));
+}
+
+/* One that keeps its sign, but for noise, may be one. */
+static void test_currents_of_one_sign_may_be_rms_values(void)
+{
+    find("theta_m_rad,ia_Arms,ib_A\n0,2,-1\n1,1.5,2\n2,-0.5,0.5\n");
+    expect_phases(2.0 * sqrt(2.0), -1.0);
+    TEST_ASSERT_NULL(strstr(remark.text, "swings"));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -407,5 +434,7 @@ int main(void)
     RUN_TEST(test_which_voltages_are_taken);
     RUN_TEST(test_a_run_is_made_of_these_columns);
     RUN_TEST(test_out_of_memory);
+    RUN_TEST(test_currents_that_swing_are_no_rms_values);
+    RUN_TEST(test_currents_of_one_sign_may_be_rms_values);
     return UNITY_END();
 }
