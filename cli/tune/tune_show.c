@@ -39,8 +39,9 @@ static void show_before_and_after(const cli_tuning *t)
         cli_say("  ripple, peak to peak, N·m    not known        not known   %s\n", expected);
     else
         cli_say("  %s   %10.3g   %14.3g   %s\n",
-                hci_expected_ripple_is_doubtful(e) ? "ripple in the model, N·m "
-                                                   : "ripple, peak to peak, N·m",
+                hci_expected_ripple_is_doubtful(e) || e->state != HCI_RIPPLE_KNOWN
+                    ? "ripple in the model, N·m "
+                    : "ripple, peak to peak, N·m",
                 before_Nm, after_Nm, expected);
     cli_say("  peak phase current, A       %10.4g   %14.4g   the same, if the current loop follows\n",
             s->plain_amplitude_A, s->peak_phase_current_A);

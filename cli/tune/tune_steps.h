@@ -77,7 +77,9 @@ typedef struct {
     double stranger_order; /* the largest of the cogging torque found, where slots and poles make another one
                             * that was not found; 0: none */
     double mains_order,
-        mains_Hz;   /* an order found that is a multiple of 50 or 60 Hz at the one speed; 0: none */
+        mains_Hz;            /* an order found that is a multiple of 50 or 60 Hz at the one speed; 0: none */
+    double cogging_known_Nm; /* to which its orders are known, peak to peak, by their noise alone (95 %); 0:
+                                not */
     double fast_Hz; /* the fastest of the larger orders by a torque sensor at one speed; 0: all are slow */
     double torque_to_sheet; /* torques of the recordings to those of the declared back-EMF, which check does
                              * not understand; 0: it does */

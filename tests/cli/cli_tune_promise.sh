@@ -36,6 +36,7 @@ slow_turn() {
 }
 slow_turn slow.csv 0
 run 0 tune slow.csv --pole-pairs 7 --kv 120 --rated-current 3 -o plain
+says '^  ripple in the model, N·m .* not known$'
 check "order 1 is told $(grep -c 'Whether order 1 is of' "$work/stdout") times" [ "$(grep -c 'Whether order 1 is of' "$work/stdout")" -eq 1 ]
 says 'i_q as it' 'less the i_q of the'
 check "once a turn although it is not there" [ "$(grep -c 'once a' "$work/stdout")" -eq 0 ]

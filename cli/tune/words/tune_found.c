@@ -573,10 +573,20 @@ static void judge_one_speed(cli_tuning *t, const order_sum *sum, size_t count)
     }
 }
 
+/* Peak to peak of two standard errors of each order, which add up by chance. */
+static double known_to_Nm(const order_sum *sum, size_t count)
+{
+    double square = 0.0;
+    for (size_t k = 0; k < count; ++k)
+        square += sum[k].std_error_Nm * sum[k].std_error_Nm;
+    return isfinite(square) ? 2.0 * 2.0 * sqrt(square) : 0.0;
+}
+
 static void say_cogging(cli_tuning *t)
 {
     static order_sum sum[MOST_ORDERS];
     const size_t count = sum_cogging(t, sum);
+    t->cogging_known_Nm = known_to_Nm(sum, count);
     say_once_a_turn(t, sum, count);
     judge_slots(t, sum, count);
     judge_one_speed(t, sum, count);

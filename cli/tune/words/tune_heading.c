@@ -86,6 +86,16 @@ static void say_doubtful(const cli_tuning *t, double before_Nm, char *text, size
             cli_tune_unexplained_Nm(t));
 }
 
+/* What a model leaves is no better known than what it has. */
+static void say_of_model(const cli_tuning *t, double before_Nm, double after_Nm, char *text, size_t size)
+{
+    char known[64] = "";
+    if (t->cogging_known_Nm > after_Nm)
+        snprintf(known, sizeof known, " (its orders are known to %.1g N·m)", t->cogging_known_Nm);
+    snprintf(text, size, "A ripple of %.3g N·m from peak to peak %s %.3g N·m%s in the model; %s", before_Nm,
+             becomes(before_Nm, after_Nm), after_Nm, known, not_known(t));
+}
+
 static void say_fall(cli_tuning *t, char *text, size_t size)
 {
     const hci_expected_ripple *e = &t->solution.expected;
@@ -107,8 +117,7 @@ static void say_fall(cli_tuning *t, char *text, size_t size)
     else if (e->state == HCI_RIPPLE_KNOWN)
         say_bound(t, before_Nm, after_Nm, text, size);
     else
-        snprintf(text, size, "A ripple of %.3g N·m from peak to peak %s %.3g N·m in the model; %s", before_Nm,
-                 becomes(before_Nm, after_Nm), after_Nm, not_known(t));
+        say_of_model(t, before_Nm, after_Nm, text, size);
 }
 
 /* What is not in the logs goes before what is. */

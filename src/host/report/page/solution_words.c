@@ -138,6 +138,13 @@ static void row_of_mean(const hci_solution_page *p)
     row_of(p->out, "Mean torque", before, after, machine);
 }
 
+/* Whether recordings say that the figures hold for the model alone. */
+static bool is_of_model(const hci_expected_ripple *e)
+{
+    return hci_expected_ripple_is_doubtful(e) ||
+           (e->state != HCI_RIPPLE_KNOWN && e->state != HCI_RIPPLE_NO_RECORDINGS);
+}
+
 static void row_of_ripple(const hci_solution_page *p)
 {
     const hci_solution *s = p->solution;
@@ -150,8 +157,8 @@ static void row_of_ripple(const hci_solution_page *p)
     cell_of_ripple(after, s, swing_Nm(p->facts.after_Nm), mean_Nm(s));
     if (s->expected.state == HCI_RIPPLE_KNOWN) cell_of_bound(machine, p);
     row_of(p->out,
-           hci_expected_ripple_is_doubtful(&s->expected) ? "Torque ripple in the model, peak to peak"
-                                                         : "Torque ripple, peak to peak",
+           is_of_model(&s->expected) ? "Torque ripple in the model, peak to peak"
+                                     : "Torque ripple, peak to peak",
            before, after, machine);
 }
 
