@@ -37,6 +37,8 @@ run 1 tune idle.csv one.csv $motor -o one
 says 'that are not plausible' 'All loads are of one size, at which several effects look alike' 'another load, at half of it or so, tells'
 run 1 tune idle.csv one.csv half.csv $motor -o two
 says '^tuned.*falls to at most 0\.00[0-9]* N·m on the machine'
+says '^  On the bench, each steady .diagnose/measure_next.csv.:$' '^    10 turns (forward|back) at [0-9.]* rpm: i_d [-0-9.]* A, i_q [-0-9.]* A$'
+check "a row for each of measure_next.csv" [ "$(grep -c '^    10 turns ' "$work/stdout")" -eq "$(sed 1d two/diagnose/measure_next.csv | wc -l)" ]
 check "one load, of two" [ "$(grep -c 'All loads are of one size' "$work/stdout")" -eq 0 ]
 
 # ---- phase currents that swing are no rms values, whatever their header says, unless the user does
@@ -59,6 +61,17 @@ run 0 tune zeros.csv $plain --rated-current 40 --torque 20 -o zeros
 says '^tuned: ' 'In 1 of 1 runs what was read as current, up to 0.04 A, stands still' 'subtract 0.0[0-9]* A from i_a, add 0.0[0-9]* A to i_b' \
     'The offsets of the currents are those of the logs: .*these make 0.0[0-9]* N·m once an electrical turn'
 check "noise that a rating is held against" [ "$(grep -c 'largest recorded one' "$work/stdout")" -eq 0 ]
+
+# ---- a rated current in mA: no sign is accused of what is a load beside the logs without one
+
+awk -F, -v OFS=, 'NR == 1 { print; next } { row[NR] = $0 } END { for (k = NR; k > 1; --k) { split(row[k], x, ","); print x[1], x[2] + 0.02, x[3], x[4], x[5], -x[6] } }' \
+    idle.csv >back.csv
+milli="$plain --rated-current 4000"
+run 1 tune idle.csv back.csv one.csv half.csv $milli -o milli
+says '^tuned' 'A rated current of 4000 A is [0-9]* times the largest that was recorded, 4.* A: is it in mA .--rated-current 4.'
+check "a sign, of a rating in mA" [ "$(grep -c 'generator' "$work/stdout")" -eq 0 ]
+run 0 check milli/machine idle.csv back.csv one.csv half.csv
+says '^consistent'
 
 # ---- current sensors that end at 3.7 A: what they do not show is taken from the two others, and said with rows, value and remedy
 

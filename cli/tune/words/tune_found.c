@@ -706,6 +706,26 @@ static void say_advice(cli_tuning *t)
     if (text[0]) hci_tuning_say(&t->tuning, HCI_TUNING_NEXT, "%s.", text);
 }
 
+/* A row of what is to be played: "  10 turns forward at 7.5 rpm: i_d 0 A, i_q 1.41 A". */
+static void say_point(cli_tuning *t, const hci_next_point *p)
+{
+    char current[64] = "the current that control makes";
+    if (isfinite(p->iq_A)) snprintf(current, sizeof current, "i_d %.3g A, i_q %.3g A", p->id_A, p->iq_A);
+    hci_tuning_say(&t->tuning, HCI_TUNING_NEXT, "  %.3g turns %s at %.3g rpm: %s%s", p->turns,
+                   p->speed_rad_per_s < 0.0 ? "back" : "forward", fabs(p->speed_rad_per_s) * 30.0 / HCI_PI,
+                   current, p->source == HCI_TORQUE_INERTIA ? ", the shaft free" : "");
+}
+
+/* What all of that comes to on the bench. */
+static void say_points(cli_tuning *t)
+{
+    const hci_diagnosis *d = &t->diagnosis;
+    if (d->next_points == 0) return;
+    hci_tuning_say(&t->tuning, HCI_TUNING_NEXT, "On the bench, each steady (diagnose/measure_next.csv):");
+    for (size_t k = 0; k < d->next_points; ++k)
+        say_point(t, &d->next[k]);
+}
+
 void cli_tune_say_diagnosis(cli_tuning *t)
 {
     const hci_diagnosis *d = &t->diagnosis;
@@ -718,4 +738,5 @@ void cli_tune_say_diagnosis(cli_tuning *t)
     for (size_t k = 0; k < d->findings; ++k)
         say_turned(t, &d->finding[k]);
     say_advice(t);
+    say_points(t);
 }

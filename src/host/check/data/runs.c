@@ -179,12 +179,21 @@ static void scales_make(check_data *data)
     }
 }
 
+/* A current up to which none flows, beside what is rated or recorded. Where that makes none of all that was
+ * recorded, and recordings with and without a current are told from each other all the same, the rating is in
+ * another unit. */
 static double no_current(const check_data *data)
 {
-    double most = data->value[CHECK_rated_current_A];
-    for (size_t k = 0; k < data->runs; ++k)
-        most = fmax(most, sqrt(data->run[k].current_square)); /* of NAN and a number the number */
-    return CHECK_NO_CURRENT * most;
+    double least = INFINITY, most = NAN;
+    for (size_t k = 0; k < data->runs; ++k) {
+        const double current = sqrt(data->run[k].current_square);
+        least = fmin(least, current); /* of NAN and a number the number */
+        most = fmax(most, current);
+    }
+    const double rated = data->value[CHECK_rated_current_A];
+    const bool is_of_rated =
+        rated > most && !(most < CHECK_NO_CURRENT * rated && least < CHECK_NO_CURRENT * most);
+    return CHECK_NO_CURRENT * (is_of_rated || isnan(most) ? rated : most);
 }
 
 /* ---- one number for torque */

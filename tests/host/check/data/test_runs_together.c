@@ -195,6 +195,12 @@ static void test_the_current_that_is_none(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, CHECK_NO_CURRENT * 6.0, no_current(&data));
     data.value[CHECK_rated_current_A] = 9.0;
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, CHECK_NO_CURRENT * 9.0, no_current(&data));
+    data.value[CHECK_rated_current_A] = 9000.0; /* of recordings that do not tell it from a current */
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, CHECK_NO_CURRENT * 9000.0, no_current(&data));
+    run[0].current_square = pow(0.9 * CHECK_NO_CURRENT * 6.0, 2.0);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, CHECK_NO_CURRENT * 6.0, no_current(&data));
+    run[0].current_square = pow(1.1 * CHECK_NO_CURRENT * 6.0, 2.0);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, CHECK_NO_CURRENT * 9000.0, no_current(&data));
     data.no_current_A = 4.5;
     TEST_ASSERT_FALSE(has_current(&data, &run[2]));
     TEST_ASSERT_TRUE(has_current(&data, &run[3]));
