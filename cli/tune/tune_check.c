@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cli/tune/tune_commands.h"
@@ -115,14 +116,25 @@ static void take_slip(cli_tuning *t, const hci_check *c, const hci_check_finding
                f->should_be);
 }
 
+/* A number of a file that this call made has digits that nobody wrote. */
+static void said_number(const char *cell, char text[32])
+{
+    char *end;
+    const double value = strtod(cell, &end);
+    snprintf(text, 32, "%.31s", cell);
+    if (*cell != '\0' && *end == '\0' && strlen(cell) > 8) snprintf(text, 32, "%.6g", value);
+}
+
 static void say_finding(cli_tuning *t, const hci_check *c, const hci_check_finding *f)
 {
     const double probability = probability_of(t, c, f);
     const bool is_found = probability >= HCI_CHECK_FOUND;
+    char found[32];
+    said_number(f->found, found);
     hci_tuning_say(&t->tuning, is_found ? HCI_TUNING_READ : HCI_TUNING_UNKNOWN,
                    "%s: %s (%.3g %%); %s:%zu, %s: found %s, should be %s",
                    is_found ? "slip" : "possible slip", f->words, 100.0 * probability, f->file, f->line,
-                   f->column, f->found, f->should_be);
+                   f->column, strlen(f->found) < sizeof found ? found : f->found, f->should_be);
     if (is_found && !t->has_slip) take_slip(t, c, f, probability);
 }
 

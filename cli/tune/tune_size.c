@@ -420,6 +420,13 @@ static bool say_unusual(const cli_tuning *t, const strength *x, char *text, size
 /* Times all torque that is found or asked for. */
 #define MUCH_RATED 1000.0
 
+/* To two digits, of a number above 1. */
+static double two_digits(double x)
+{
+    const double unit = pow(10.0, floor(log10(x)) - 1.0);
+    return unit * round(x / unit);
+}
+
 /* Where no current turned with the rotor. */
 static bool say_rated_torque(const cli_tuning *t, char *text, size_t size)
 {
@@ -429,10 +436,11 @@ static bool say_rated_torque(const cli_tuning *t, char *text, size_t size)
     if (!(most_Nm > 0.0) || !(rated_Nm > MUCH_RATED * most_Nm) ||
         rated_A < MUCH_RATED * cli_tune_largest_recorded_A(t))
         return false;
-    snprintf(text, size,
-             "a rated current of %.4g A would make %.3g N·m, %.2g times all torque that is found or asked "
-             "for: is it in mA (--rated-current %.4g)?",
-             rated_A, rated_Nm, rated_Nm / most_Nm, rated_A / 1000.0);
+    snprintf(
+        text, size,
+        "a rated current of %.4g A would make %.0f times all torque that is found or asked for: is it in "
+        "mA (--rated-current %.4g)?",
+        rated_A, two_digits(rated_Nm / most_Nm), rated_A / 1000.0);
     return true;
 }
 

@@ -70,8 +70,16 @@ milli="$plain --rated-current 4000"
 run 1 tune idle.csv back.csv one.csv half.csv $milli -o milli
 says '^tuned' 'A rated current of 4000 A is [0-9]* times the largest that was recorded, 4.* A: is it in mA .--rated-current 4.'
 check "a sign, of a rating in mA" [ "$(grep -c 'generator' "$work/stdout")" -eq 0 ]
+run 1 tune idle.csv back.csv $milli -o unloaded
+says 'A rated current of 4000 A would make [0-9]*000 times all torque that is found or asked for: is it in mA .--rated-current 4.'
 run 0 check milli/machine idle.csv back.csv one.csv half.csv
 says '^consistent'
+
+# ---- a slip of the sheet is said without digits that nobody wrote
+
+run 1 tune idle.csv one.csv half.csv --pole-pairs 3 --volt-per-krpm 54.4 --slots 9 --rated-current 4 -o sheet
+says 'slip'
+check "more digits than anybody wrote" [ "$(grep -c '[0-9]\.[0-9]\{9,\}' "$work/stdout")" -eq 0 ]
 
 # ---- current sensors that end at 3.7 A: what they do not show is taken from the two others, and said with rows, value and remedy
 
