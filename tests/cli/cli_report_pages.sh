@@ -51,7 +51,7 @@ spoil solve mute 'torque-title: <rect hit> tells nothing' '/<rect class="hit"/{x
 spoil limit silent 'limits-title: <rect after> tells nothing' '/<title>phase current: /s/<title>[^<]*/<title>/'
 spoil solve unnamed 'current-title: b is not in the legend' 's/<path class="b"/<path class="a"/'
 spoil driven twice 'twice: what harmonics of the real back-emf add under load' 's|</main>|<p>What harmonics of the real back-EMF add under load is not known</p>&|'
-spoil driven other 'Torque ripple, column 1: ' 's|\(Torque ripple, peak to peak</th><td>\)[0-9.]*|\11.23|'
+spoil driven other 'Torque ripple, column 1: ' 's|\(Torque ripple in the model, peak to peak</th><td>\)[0-9.]*|\11.23|'
 spoil bench bound 'Torque ripple: at most ' 's|at most [0-9.]* N·m<small>|at most 0.0001 N·m<small>|'
 spoil driven known 'Torque ripple, column 3: .*it is not known' 's|<small>not known</small>|0.01 N·m|g'
 spoil driven aside 'open-title: its angle is at ' '/id="open-title"/,/<\/svg>/s/<path class="grid" d="M\([0-9.]*\) \([0-9.]*\)L\1 /<path class="grid" d="M99.00 \2L99.00 /'
