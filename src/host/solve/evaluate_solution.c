@@ -8,6 +8,7 @@
 #include "host/base/memory.h"
 #include "host/currents/plain_sine.h"
 #include "host/solve/harmonic_system.h"
+#include "host/solve/pointwise.h"
 #include "host/solve/torque_spectrum.h"
 
 const char *hci_order_verdict_name(hci_order_verdict verdict)
@@ -138,11 +139,19 @@ static double ratio(double value, double reference)
     return value / reference;
 }
 
+/* Of a direction that is kept, else in phase with the back-EMF. */
+static hci_wave plain_of(const hci_task *t)
+{
+    const hci_wave kept = t->current_angle_rad ? hci_pointwise_kept_sine(t) : (hci_wave){0.0, 0, 0.0, 0.0};
+    const bool is_found = hci_amplitude(kept.sine, kept.cosine) > 0.0;
+    return is_found ? kept : hci_plain_sine(t->machine, hci_target_mean_Nm(t->target));
+}
+
 /* What the currents are compared with. */
 static void fill_plain(const hci_task *t, hci_solution *s)
 {
     s->plain_is_held = t->held != NULL;
-    s->plain = t->held ? *t->held : hci_plain_sine(t->machine, hci_target_mean_Nm(t->target));
+    s->plain = t->held ? *t->held : plain_of(t);
     s->plain_amplitude_A = hci_amplitude(s->plain.sine, s->plain.cosine);
 }
 

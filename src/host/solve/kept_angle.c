@@ -10,7 +10,7 @@ enum { STEPS = 60, HALVINGS = 20, WAY = 16 };
 
 #define ENOUGH 1e-13 /* of the torque that the back-EMF of the direction would make with the current */
 
-static void direction_at(double theta_rad, double angle_rad, double u[2])
+void hci_kept_angle_direction(double theta_rad, double angle_rad, double u[2])
 {
     u[0] = sin(theta_rad + angle_rad);
     u[1] = -cos(theta_rad + angle_rad);
@@ -19,7 +19,7 @@ static void direction_at(double theta_rad, double angle_rad, double u[2])
 double hci_kept_angle_project(double theta_rad, double angle_rad, double e[3])
 {
     double u[2], abc[3];
-    direction_at(theta_rad, angle_rad, u);
+    hci_kept_angle_direction(theta_rad, angle_rad, u);
     hci_plane_to_abc(u, abc);
     const double along = e[0] * abc[0] + e[1] * abc[1] + e[2] * abc[2];
     for (int s = 0; s < 3; ++s)
@@ -87,7 +87,7 @@ hci_status hci_kept_angle_current(const hci_smooth_torque *torque, double theta_
                                   double wanted_Nm, double x[2])
 {
     double u[2];
-    direction_at(theta_rad, angle_rad, u);
+    hci_kept_angle_direction(theta_rad, angle_rad, u);
     const double start_A = copysign(hypot(x[0], x[1]), x[0] * u[0] + x[1] * u[1]);
     place p = place_at(torque, u, start_A, wanted_Nm);
     bool found = find(torque, u, wanted_Nm, &p);

@@ -6,6 +6,10 @@
 
 #include "hci/machine/strategy.h"
 
+/* u: out, the unit vector of the orthonormal plane along the direction at an electrical angle. angle_rad: β.
+ */
+void hci_kept_angle_direction(double theta_rad, double angle_rad, double u[2]);
+
 /* What of the back-EMF e of three phases, in N·m/A and without a mean, lies along the direction at an
  * electrical angle, in its place. angle_rad: β. Returns its square. */
 double hci_kept_angle_project(double theta_rad, double angle_rad, double e[3]);

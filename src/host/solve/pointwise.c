@@ -160,6 +160,45 @@ static hci_status kept_at(const hci_task *t, size_t k, double wanted_Nm, double 
     return hci_kept_angle_current(&torque, a.theta_rad, *t->current_angle_rad, wanted_Nm, x);
 }
 
+/* ---- a sine along a kept angle ---- */
+
+enum { STEPS = 30 };
+
+#define ENOUGH 1e-12 /* of the mean torque */
+
+/* Mean torque of a sine over a period, and its slope by the length in the plane. */
+static double mean_along(const hci_task *t, double length, double *slope)
+{
+    const size_t count = samples_of(t);
+    double sum_Nm = 0.0;
+    *slope = 0.0;
+    for (size_t k = 0; k < count; ++k) {
+        const angle a = {hci_machine_at(t->machine, angle_rad(t, k)), t->higher, angle_rad(t, k)};
+        double u[2], gradient[2];
+        hci_kept_angle_direction(a.theta_rad, *t->current_angle_rad, u);
+        const double x[2] = {length * u[0], length * u[1]};
+        sum_Nm += smooth_torque(&a, x, gradient) / (double)count;
+        *slope += (gradient[0] * u[0] + gradient[1] * u[1]) / (double)count;
+    }
+    return sum_Nm;
+}
+
+hci_wave hci_pointwise_kept_sine(const hci_task *t)
+{
+    const double wanted_Nm = hci_target_mean_Nm(t->target);
+    double length = 0.0, slope, error_Nm = mean_along(t, 0.0, &slope) - wanted_Nm;
+    for (int k = 0; k < STEPS && fabs(error_Nm) > ENOUGH * fabs(wanted_Nm); ++k) {
+        length -= error_Nm / slope;
+        error_Nm = mean_along(t, length, &slope) - wanted_Nm;
+    }
+    const bool found = fabs(error_Nm) <= ENOUGH * fabs(wanted_Nm);
+    const double amplitude_A = found ? sqrt(2.0 / 3.0) * length : 0.0;
+    return (hci_wave){1.0, 1, amplitude_A * cos(*t->current_angle_rad),
+                      amplitude_A * sin(*t->current_angle_rad)};
+}
+
+/* ---- the shortest currents ---- */
+
 double hci_pointwise_mean_square_A2(const hci_task *task)
 {
     const size_t count = samples_of(task);

@@ -531,6 +531,43 @@ static void test_currents_keep_their_angle(void)
     }
 }
 
+/* What they are compared with has their direction, and makes the mean torque with all that acts along it: the
+ * sum over the angle of what this makes of the sine. */
+static void expect_plain(double angle_rad, double mean_Nm, double (*torque)(double, const double[3]),
+                         hci_solution *s)
+{
+    enum { MANY = 720 };
+    double sum_Nm = 0.0;
+    for (int k = 0; k < MANY; ++k) {
+        double i[3], dq[2];
+        waves_at(&s->plain, 1, 2.0 * REF_PI * k / MANY, i);
+        park(2.0 * REF_PI * k / MANY, i, dq);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, dq[0] * cos(angle_rad) + dq[1] * sin(angle_rad));
+        sum_Nm += torque(2.0 * REF_PI * k / MANY, i) / MANY;
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(1e-7, mean_Nm, sum_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(
+        1e-9, 1.0, s->loss_to_plain * 1.5 * s->plain_amplitude_A * s->plain_amplitude_A / s->mean_square_A2);
+}
+
+static void test_the_plain_sine_has_the_kept_direction(void)
+{
+    static const double ANGLE[] = {0.0, 0.4, -0.3};
+    for (int k = 0; k < 6; ++k) {
+        const double mean_Nm = k % 2 ? -6.0 : 10.0;
+        hci_solution s;
+        want(mean_Nm, 6.0, 0.5);
+        setUp();
+        expect_kept(ANGLE[k / 2], torque_at, &s);
+        expect_plain(ANGLE[k / 2], mean_Nm, torque_at, &s);
+        hci_solution_release(&s);
+        memset(&effects, 0, sizeof effects);
+        expect_kept(ANGLE[k / 2], declared_torque, &s);
+        expect_plain(ANGLE[k / 2], mean_Nm, declared_torque, &s);
+        hci_solution_release(&s);
+    }
+}
+
 /* T = a l (1 − l²/3) of a length l along the direction is largest at l = 1. */
 static double falling(const void *context, const double x[2], double gradient[2])
 {
@@ -995,6 +1032,7 @@ int main(void)
     RUN_TEST(test_far_into_saturation);
     RUN_TEST(test_cancel);
     RUN_TEST(test_currents_keep_their_angle);
+    RUN_TEST(test_the_plain_sine_has_the_kept_direction);
     RUN_TEST(test_the_shorter_current_of_two);
     RUN_TEST(test_a_torque_that_turns_round);
     RUN_TEST(test_what_is_off_the_direction_is_no_matter);
