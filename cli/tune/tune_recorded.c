@@ -76,54 +76,6 @@ bool cli_tune_has_no_current(const cli_tuning *t, const hci_run *r)
     return r->theta_m_rad && !is_braked(r) && mean_vector(r) < NOISE_OF_MEAN * rms_A / sqrt((double)r->count);
 }
 
-/* Of the mean square along a line, that noise makes across it. */
-#define ACROSS 0.0025
-
-/* Mean squares of i_d and i_q, and of their product, over all samples. */
-typedef struct {
-    double dd, dq, qq;
-} moments;
-
-static void add_moments(const hci_run *r, moments *m)
-{
-    for (size_t k = 0; k < r->count && r->theta_m_rad; ++k) {
-        const hci_dq i = hci_park(hci_clarke(r->i_A + 3 * k), r->pole_pairs * r->theta_m_rad[k]);
-        m->dd += i.d * i.d;
-        m->dq += i.d * i.q;
-        m->qq += i.q * i.q;
-    }
-}
-
-static moments moments_of(const cli_tuning *t)
-{
-    moments m = {0.0, 0.0, 0.0};
-    for (size_t k = 0; k < t->runs.count; ++k)
-        if (!cli_tune_has_no_current(t, &t->runs.run[k])) add_moments(&t->runs.run[k], &m);
-    return m;
-}
-
-bool cli_tune_currents_are_in_line(const cli_tuning *t)
-{
-    const moments m = moments_of(t);
-    const double half = 0.5 * (m.dd + m.qq), spread = hypot(0.5 * (m.dd - m.qq), m.dq);
-    return half > 0.0 && half - spread < ACROSS * (half + spread);
-}
-
-/* An angle of currents that a drive means to have at 0, and of sensors that differ. */
-#define LEAST_ANGLE_DEG 1.0
-
-/* Currents further from i_q make less than half of the torque of the shortest, if the angle is right: a
- * torque that small beside them is none to go by. */
-#define MOST_ANGLE_DEG 60.0
-
-bool cli_tune_line_is_kept(const cli_tuning *t, double *angle_deg)
-{
-    const moments m = moments_of(t);
-    const double angle = -0.5 * atan2(2.0 * m.dq, m.qq - m.dd) * 180.0 / HCI_PI;
-    *angle_deg = fabs(angle) < LEAST_ANGLE_DEG ? 0.0 : angle;
-    return cli_tune_currents_are_in_line(t) && fabs(angle) <= MOST_ANGLE_DEG;
-}
-
 /* ---- ripple ---- */
 
 /* Parts of the turn at most, samples in each of them at least, on average, and those of which the median is

@@ -18,14 +18,6 @@ bool cli_tune_is_overrated(const cli_tuning *tune);
 /* None, or what a sensor of current makes of none. */
 bool cli_tune_has_no_current(const cli_tuning *tune, const hci_run *run);
 
-/* Whether all currents in the rotor frame lie on one line, as with i_d at 0: the torque shows one sum of the
- * back-EMF along i_d and along i_q then, in which its orders 6k − 1 and 6k + 1 are one order 6k. */
-bool cli_tune_currents_are_in_line(const cli_tuning *tune);
-
-/* Whether they do so near i_q: then the table keeps to the line too, and how the machine acts off it does not
- * matter. angle_deg: out, of the line, i_d = -I sin, i_q = I cos; 0 where it is as good as that. */
-bool cli_tune_line_is_kept(const cli_tuning *tune, double *angle_deg);
-
 typedef struct {
     size_t run;             /* the recording that shows most; the number of recordings: none shows any */
     double peak_to_peak_Nm; /* of its torque, or of what its i_q makes, each whole turn less its mean, in

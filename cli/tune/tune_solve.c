@@ -9,6 +9,7 @@
 #include "cli/tune/tune_commands.h"
 #include "cli/tune/tune_cover.h"
 #include "cli/tune/tune_facts.h"
+#include "cli/tune/tune_line.h"
 #include "cli/tune/tune_options.h"
 #include "cli/tune/tune_recorded.h"
 #include "cli/tune/tune_waveforms.h"
@@ -248,7 +249,7 @@ static void say_angle(cli_tuning *t, const char *angle_deg)
         hci_tuning_say(
             &t->tuning, HCI_TUNING_WANTED,
             "with the current at %s degrees in the rotor frame, as in the recordings: what another "
-            "direction does they do not tell",
+            "direction does at this torque they do not tell",
             angle_deg);
     else
         hci_tuning_say(&t->tuning, HCI_TUNING_WANTED,
@@ -260,14 +261,14 @@ static bool inductances_are_declared(const hci_machine_data *m)
     return m->inductance_count > 0 || (m->inductance_d_H > 0.0 && m->inductance_q_H > 0.0);
 }
 
-/* Where all currents lie on one line, what an effect that acts with the current makes off that line, or a
- * saliency that nobody declared, is supposed and not measured: the table keeps to the line. */
+/* Where all currents lie on one line or curve, what an effect that acts with the current makes off that line,
+ * or a saliency that nobody declared, is supposed and not measured: the table keeps to it. */
 static void keep_angle(cli_tuning *t, hci_solve_options *o, char text[32], cli_tune_line *c)
 {
     double angle_deg;
     const bool is_open = with_current(&t->found.list) > with_current(&t->effects.list) ||
                          !inductances_are_declared(&t->corrected);
-    t->keeps_angle = is_open && cli_tune_line_is_kept(t, &angle_deg);
+    t->keeps_angle = is_open && cli_tune_curve_is_kept(t, t->mean_Nm, &angle_deg);
     cli_tune_add_option(c, t->keeps_angle ? "method" : "auto", t->keeps_angle ? "pointwise" : NULL);
     if (!t->keeps_angle) return;
     snprintf(text, 32, "%.3g", angle_deg);

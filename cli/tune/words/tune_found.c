@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cli/tune/tune_facts.h"
+#include "cli/tune/tune_line.h"
 #include "cli/tune/tune_recorded.h"
 #include "hci/host/waveform/turning_load.h"
 

@@ -31,6 +31,19 @@ static void record_all(double share)
     model_fit();
 }
 
+/* The same with a share of its own for each load. */
+static void record_each(const double share[4])
+{
+    static const double CURRENT_A[] = {1.0, 5.0, 7.0, 9.0};
+    for (size_t r = 0; r < 4; ++r) {
+        record(N, &(point){60.0 + 10.0 * (double)r, CURRENT_A[r], 0.0, 0.0, 0.0});
+        for (size_t k = 0; k < N; ++k)
+            rec_phases(share[r] * CURRENT_A[r], CURRENT_A[r], P * run[r].theta_m_rad[k], run[r].i_A + 3 * k);
+    }
+    search_start();
+    model_fit();
+}
+
 static void add_term(const char *effect, const char *parameter, double order, double value)
 {
     model_add(effect, parameter, NULL, order);
@@ -84,6 +97,33 @@ static void test_what_is_told_apart_does_not(void)
     TEST_ASSERT_NULL(found_to_cancel());
 }
 
+/* L_dd, L_qq and L_dq of order n at i_d = r i_q, but for a factor: sin nθ of the torque has −n/2 (r² L_dd +
+ * L_qq) + (1 − r²) L_dq, and cos nθ has r (L_dd − L_qq + n L_dq). Both are 0 but for a thirtieth. */
+static void add_inductances(double r, double n)
+{
+    const double qq = (2.0 * (1.0 - r * r) / n + n * r * r) / (1.0 + r * r);
+    add_term("reluctance", "dd_cosine", n, 1e-3 * (qq - n));
+    add_term("reluctance", "qq_cosine", n, 1e-3 * qq);
+    add_term("reluctance", "dq_sine", n, 1.03e-3);
+}
+
+/* Along one direction, or several that go over into each other, that says nothing; beside a load in another
+ * one, and with i_q alone, it does. */
+static void test_inductances_along_a_curve_are_not_asked(void)
+{
+    static const double SHARE[][4] = {
+        {-0.5, -0.5, -0.5, -0.5}, {-0.45, -0.49, -0.5, -0.51}, {0.5, -0.5, -0.5, -0.5}, {0.0, 0.0, 0.0, 0.0}};
+    static const char *const FOUND[] = {NULL, NULL, "reluctance", "reluctance"};
+    for (int k = 0; k < 4; ++k) {
+        record_each(SHARE[k]);
+        add_inductances(SHARE[k][3], 6.0);
+        const char *found = found_to_cancel();
+        TEST_ASSERT_EQUAL_STRING(FOUND[k] ? FOUND[k] : "none", found ? found : "none");
+        tearDown();
+        setUp();
+    }
+}
+
 /* Powers of the currents do, as those of any curve. */
 static void test_a_series_does_not(void)
 {
@@ -100,6 +140,7 @@ int main(void)
     RUN_TEST(test_orders_that_add_up_do_not);
     RUN_TEST(test_one_small_one_does_not);
     RUN_TEST(test_what_is_told_apart_does_not);
+    RUN_TEST(test_inductances_along_a_curve_are_not_asked);
     RUN_TEST(test_a_series_does_not);
     return UNITY_END();
 }
