@@ -30,7 +30,7 @@
 #define RESOLUTION 5e-4 /* of the largest rms torque */
 #define REPEATED   0.1  /* of the square of what is left beside noise, that may differ from turn to turn */
 #define DROWNED    0.25 /* of the torque of interest: noise beside which nothing is complete */
-#define SUSPICION  0.5  /* of the limit of work, that a search without a run may take that is suspected */
+#define SUSPICION  0.35 /* of the limit of work, that a search without a run may take that is suspected */
 #define AGAINST    0.05 /* of the torque per ampere, that voltages which agree to 2 % exclude */
 
 const char *hci_finding_verdict_name(hci_finding_verdict verdict)
@@ -528,6 +528,7 @@ static hci_attribute_options how_to(const hci_dataset *b, const task *t)
                                    t->options->slip_context,
                                    t->suspect ? look_at : NULL,
                                    t->suspect,
+                                   t->suspect != NULL,
                                    t->start};
 }
 

@@ -34,8 +34,8 @@ typedef struct {
 
 /* Work that a search may take; beyond it the best model so far is kept. And what judging that may take
  * besides, behind which fits end after a few steps. */
-#define HCI_MOST_WORK       5.5e10
-#define HCI_WORK_OF_JUDGING 1.5e10
+#define HCI_MOST_WORK       8e10
+#define HCI_WORK_OF_JUDGING 2.5e10
 
 /* A list of more rows than this may take as many times as much, up to three times. */
 #define HCI_USUAL_ROWS 60000.0

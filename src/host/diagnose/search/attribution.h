@@ -69,6 +69,7 @@ typedef struct {
     hci_status (*look)(void *context, const hci_candidates *model, const hci_effects *effects,
                        hci_note *note);
     void *look_context;
+    bool only_complete;          /* a search that ends early is not judged: HCI_ERROR_STOPPED */
     const hci_candidates *start; /* what the search goes on from, in place of what the runs without a current
                                   * show; NULL, or none of them in: nothing */
 } hci_attribute_options;

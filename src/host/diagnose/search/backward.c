@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "host/base/memory.h"
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/fit/linearise.h"
 #include "host/diagnose/fit/standard_errors.h"
@@ -9,66 +10,88 @@
 
 /* ---- single orders ---- */
 
-/* By how much the score would rise without a candidate whose columns begin at c. At the solution steps are
- * near 0, so that what leaving costs is what its value is away from the declared one. */
-static double stay_gain(const hci_sweep *sweep, const hci_candidate *x, size_t c, double rows)
+/* The solution about the declared values, from which columns leave: at the present values steps are near 0.
+ */
+static bool solve_all(hci_sweep *sweep, const hci_candidates *model, const hci_normal_equations *normal)
 {
-    double saved[HCI_CANDIDATE_TERMS];
-    for (size_t j = 0; j < x->count; ++j) {
-        saved[j] = sweep->b[c + j];
-        sweep->b[c + j] += hci_candidate_departure(x, j);
-    }
-    const double gain = hci_sweep_reduction(sweep, c, x->count) - hci_candidate_cost(x, rows);
-    for (size_t j = 0; j < x->count; ++j)
-        sweep->b[c + j] = saved[j];
-    return gain;
+    if (!hci_sweep_start(sweep, normal)) return false;
+    for (size_t c = 0; c < normal->n; ++c)
+        hci_sweep_in(sweep, c);
+    for (size_t k = 0, c = 0; k < model->count; ++k)
+        for (size_t j = 0; model->candidate[k].in && j < model->candidate[k].count; ++j, ++c)
+            sweep->b[c] += hci_candidate_departure(&model->candidate[k], j);
+    return true;
 }
 
-/* The one whose leaving would lower the score most; the number of candidates where none would. */
-static size_t superfluous(const hci_candidates *model, const hci_sweep *sweep, double rows)
+/* The one whose leaving would lower the score most, of those that have not left, and its first column; the
+ * number of candidates where none would. */
+static size_t superfluous(const hci_candidates *model, const hci_sweep *sweep, double rows, size_t *column)
 {
     size_t worst = model->count;
     double least = 0.0;
     for (size_t k = 0, c = 0; k < model->count; ++k) {
         const hci_candidate *x = &model->candidate[k];
         if (!x->in) continue;
-        const double gain = stay_gain(sweep, x, c, rows);
-        c += x->count;
+        const double gain =
+            sweep->in[c] ? hci_sweep_reduction(sweep, c, x->count) - hci_candidate_cost(x, rows) : 0.0;
         if (gain < least) {
             least = gain;
             worst = k;
+            *column = c;
         }
+        c += x->count;
     }
     return worst;
 }
 
-static hci_status superfluous_find(hci_search *s, const hci_candidates *model, size_t *worst, hci_note *note)
+/* Those that are superfluous one after the other, leave[order] in the order in which they would leave. */
+static hci_status superfluous_find(hci_search *s, const hci_candidates *model, size_t *leave, size_t *count,
+                                   hci_note *note)
 {
     hci_normal_equations normal;
     hci_sweep sweep = {0};
+    size_t column = 0;
     hci_status status = hci_regression_normal(s->regression, model, false, &normal, note);
+    *count = 0;
     if (status) return status;
-    if (!hci_sweep_start(&sweep, &normal)) status = hci_note_memory(note, NULL, "the search of effects");
-    for (size_t c = 0; c < normal.n && !status; ++c)
-        hci_sweep_in(&sweep, c);
-    if (!status) *worst = superfluous(model, &sweep, normal.rows);
+    if (!solve_all(&sweep, model, &normal)) status = hci_note_memory(note, NULL, "the search of effects");
+    for (size_t k; !status && (k = superfluous(model, &sweep, normal.rows, &column)) < model->count;) {
+        for (size_t j = 0; j < model->candidate[k].count; ++j)
+            hci_sweep_out(&sweep, column + j);
+        leave[(*count)++] = k;
+    }
     hci_sweep_release(&sweep);
     hci_normal_equations_release(&normal);
     return status;
 }
 
-/* Leaves one candidate out where a fit is as good without. */
-static hci_status leave_one(hci_search *s, hci_fitted_model *model, size_t k, bool *left, hci_note *note)
+/* Leaves so many candidates out where a fit is as good without. */
+static hci_status leave_try(hci_search *s, hci_fitted_model *model, const size_t *leave, size_t count,
+                            bool *left, hci_note *note)
 {
     hci_fitted_model without = {0};
     hci_status status = hci_fitted_model_copy(model, &without, note);
     if (status) return status;
-    without.candidates.candidate[k].in = false;
+    for (size_t k = 0; k < count; ++k)
+        without.candidates.candidate[leave[k]].in = false;
     status = hci_regression_fit_below(s->regression, &without.candidates, model->fit.score + HCI_AS_GOOD,
                                       &without.fit, note);
     *left = !status && without.fit.score <= model->fit.score + HCI_AS_GOOD;
     if (*left) hci_fitted_model_replace(model, &without);
     hci_fitted_model_release(&without);
+    return status;
+}
+
+/* All that the equations call superfluous, or the one that is most. left: out, whether any has left. */
+static hci_status superfluous_leave(hci_search *s, hci_fitted_model *model, bool *left, hci_note *note)
+{
+    size_t count = 0, *leave = hci_memory_new(model->candidates.count + 1, sizeof *leave);
+    *left = false;
+    if (!leave) return hci_note_memory(note, NULL, "the search of effects");
+    hci_status status = superfluous_find(s, &model->candidates, leave, &count, note);
+    if (!status && count > 1) status = leave_try(s, model, leave, count, left, note);
+    if (!status && !*left && count > 0) status = leave_try(s, model, leave, 1, left, note);
+    hci_memory_free(leave);
     return status;
 }
 
@@ -96,12 +119,8 @@ static hci_status powers_leave(hci_search *s, hci_fitted_model *model, size_t k,
 hci_status hci_search_prune(hci_search *s, hci_fitted_model *model, hci_note *note)
 {
     hci_status status = HCI_OK;
-    for (bool again = true; again && !status && !hci_search_is_over(s);) {
-        size_t worst = model->candidates.count;
-        again = false;
-        status = superfluous_find(s, &model->candidates, &worst, note);
-        if (!status && worst < model->candidates.count) status = leave_one(s, model, worst, &again, note);
-    }
+    for (bool again = true; again && !status && !hci_search_is_over(s);)
+        status = superfluous_leave(s, model, &again, note);
     for (size_t k = 0; k < model->candidates.count && !status; ++k)
         status = powers_leave(s, model, k, note);
     return status;
