@@ -133,6 +133,28 @@ static bool say_unlike(const cli_tuning *t, char *text, size_t size)
     return true;
 }
 
+#define OF_RMS 2.8 /* peak to peak, of a sine */
+#define LEAVES 2.0 /* times what a plain sine has in the model */
+
+/* A model that does not explain the recordings, and leaves twice as much of their ripple as a plain sine has
+ * in it. */
+static bool say_little(const cli_tuning *t, char *text, size_t size)
+{
+    const hci_solution *s = &t->solution;
+    double before_Nm, after_Nm;
+    if (!hci_expected_ripple_is_doubtful(&s->expected) || !hci_tuning_knows_ripple(s)) return false;
+    const double left_Nm = cli_tune_unexplained_Nm(t);
+    cli_tune_swing_of(t, &before_Nm, &after_Nm);
+    if (!(OF_RMS * left_Nm > LEAVES * before_Nm)) return false;
+    snprintf(
+        text, size,
+        "The model does not explain the recordings: up to %.2g N·m rms of their ripple is not in it, and a "
+        "plain sine of %.3g A makes %.2g N·m from peak to peak in it, so that a table by it would take away "
+        "less than half of what it leaves. No table was written: what to record next stands below",
+        left_Nm, s->plain_amplitude_A, before_Nm);
+    return true;
+}
+
 static bool is_much_current(const cli_tuning *t)
 {
     return t->solution.peak_phase_current_A > EXCESS_CURRENT * t->usual_A;
@@ -167,8 +189,8 @@ static bool say_much_current(const cli_tuning *t, char *text, size_t size)
 }
 
 /* The first that holds is said. */
-static say_reason *const REASON[] = {say_large_cogging, say_against, say_unlike, say_much_torque,
-                                     say_much_current};
+static say_reason *const REASON[] = {say_large_cogging, say_against,     say_unlike,
+                                     say_little,        say_much_torque, say_much_current};
 
 bool cli_tune_say_excess(const cli_tuning *t, char *text, size_t size)
 {

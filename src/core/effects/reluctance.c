@@ -42,8 +42,9 @@ enum { MOST_ORDER = 60, MOST_LOW_ORDER = 24 };
 #define USUAL       12.0
 #define UNSYMMETRIC 60.0 /* of a rotor that does not look alike both ways round, or of unequal phases */
 
-/* Saliency and cross-coupling of the mean; a rotor that looks alike both ways round has cos for dd and qq and
- * sin for dq. */
+/* Saliency and cross-coupling of the mean, of which the latter makes a torque that keeps its sign with the
+ * load, and is told by loads of both signs alone; a rotor that looks alike both ways round has cos for dd and
+ * qq and sin for dq. */
 /* Where hardly any current flowed along d, noise and errors of the angle are all that there is of it, and
  * take any saliency that suits. Of a rotor with magnets I_0 makes a few times their flux at most. */
 #define HARDLY        0.05 /* of the current */
@@ -68,7 +69,7 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
     static const size_t EVEN[] = {DD + 1, QQ + 1, DQ}, ODD[] = {DD, QQ, DQ + 1};
     const int most = survey->richness > 0 ? MOST_ORDER : MOST_LOW_ORDER;
     hci_effect_propose(to, DD + 1, 1, 0.0, 1.0, expected_H(survey));
-    hci_effect_propose(to, DQ + 1, 1, 0.0, 4.0, expected_H(survey));
+    if (!survey->one_sided) hci_effect_propose(to, DQ + 1, 1, 0.0, 4.0, expected_H(survey));
     for (int n = 2; n <= most; n += n == 2 ? 4 : 6)
         for (int k = 0; k < 3; ++k) {
             hci_effect_propose(to, EVEN[k], 1, n, n == 2 ? UNSYMMETRIC : USUAL, 0.0);

@@ -78,7 +78,8 @@ static double expected_Nm(const hci_effect_survey *survey, int degree, int order
 }
 
 /* One order of the power d^a q^b. A rotor that looks alike both ways round has cos for even and sin for odd
- * powers of i_q; the others are looked into at low orders only. The mean has no sine. */
+ * powers of i_q; the others are looked into at low orders only, and in the mean, where they make a torque
+ * that keeps its sign with the load, only where the loads tell that. The mean has no sine. */
 static void propose_order(const hci_effect_survey *survey, const hci_effect_proposals *to, size_t monomial,
                           int order)
 {
@@ -87,7 +88,7 @@ static void propose_order(const hci_effect_survey *survey, const hci_effect_prop
     for (size_t k = 0; k < (survey->richness == 0 ? 2 : 1); ++k) {
         const size_t wave = k == 0 ? usual : 1 - usual;
         const double alternatives = k == 1 ? UNSYMMETRIC : order == 0 ? USUAL_MEAN : USUAL;
-        if (order == 0 && wave == 0) continue;
+        if (order == 0 && (wave == 0 || (k == 1 && survey->one_sided))) continue;
         hci_effect_propose(to, 2 * monomial + wave, 1, order, alternatives,
                            expected_Nm(survey, degree, order));
     }

@@ -19,8 +19,11 @@ enum {
     MOST_SPEEDS = 3
 };
 
-#define SIMILAR 0.15 /* speeds that differ by less, as a share, are the same */
-#define AROUND  1.2  /* standard deviations above a mean speed: at 0.85 of a ramp from 0 */
+#define SIMILAR    0.15 /* speeds that differ by less, as a share, are the same */
+#define LEAST_LOAD 0.1  /* of the largest current, in a run with a load; and of its own, along q */
+#define BESIDE     0.05 /* of the current, that an i_d is more than noise and errors of the angle */
+#define EVEN_LOAD  0.7  /* of the current, that its mean is in a run with one load all along */
+#define AROUND     1.2  /* standard deviations above a mean speed: at 0.85 of a ramp from 0 */
 
 #define LEAST_PERIOD 0.02 /* electrical, that a shaft turns by which is not held */
 #define WHOLE_TURN   0.95 /* mechanical: the last sample stands before the first one */
@@ -172,6 +175,30 @@ static bool is_part_of_turn(const hci_candidates_source *s, size_t run)
     return s->runs[run].time_s && turns * s->machine->pole_pairs > LEAST_PERIOD && turns < WHOLE_TURN;
 }
 
+/* Whether a run has a current along q of that sign: all along, or at times. */
+static bool may_have(const hci_run_statistics *f, double sign)
+{
+    const bool varies = hypot(f->mean_id_A, f->mean_iq_A) < EVEN_LOAD * f->current_A;
+    return varies || sign * f->mean_iq_A > LEAST_LOAD * f->current_A;
+}
+
+bool hci_candidates_are_one_sided(const hci_binned_samples *samples, const bool *use)
+{
+    double most_A = 0.0, along_d_A = 0.0;
+    bool drives = false, brakes = false;
+    for (size_t r = 0; r < samples->run_count; ++r) {
+        most_A = fmax(most_A, use[r] ? samples->statistics[r].current_A : 0.0);
+        along_d_A = fmax(along_d_A, use[r] ? fabs(samples->statistics[r].mean_id_A) : 0.0);
+    }
+    for (size_t r = 0; r < samples->run_count; ++r) {
+        const hci_run_statistics *f = &samples->statistics[r];
+        const bool is_load = use[r] && f->current_A > LEAST_LOAD * most_A;
+        drives = drives || (is_load && may_have(f, 1.0));
+        brakes = brakes || (is_load && may_have(f, -1.0));
+    }
+    return along_d_A > BESIDE * most_A && !(drives && brakes);
+}
+
 static hci_effect_survey survey_of(const hci_candidates_source *s)
 {
     hci_effect_survey x = {.machine = s->machine,
@@ -197,6 +224,7 @@ static hci_effect_survey survey_of(const hci_candidates_source *s)
             x.standing_current_A = fmax(x.standing_current_A, fabs(f->standing_A[phase]));
     }
     x.has_temperature = warms(s);
+    x.one_sided = s->symmetric && hci_candidates_are_one_sided(s->samples, s->use);
     x.both_directions = ahead && back;
     x.reference_current_A = s->reference_current_A > 0.0 ? s->reference_current_A : x.current_A;
     return x;

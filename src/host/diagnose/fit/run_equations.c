@@ -49,13 +49,13 @@ static hci_status group_add(void *context, const hci_regression *part, size_t ru
     return HCI_OK;
 }
 
-hci_status hci_run_equations_make(const hci_regression *e, const hci_candidates *candidates,
+hci_status hci_run_equations_make(const hci_regression *e, const hci_candidates *candidates, size_t few,
                                   hci_run_equations *x, hci_note *note)
 {
     const size_t runs = hci_regression_runs_in_use(e);
     hci_candidates list = {0};
     memset(x, 0, sizeof *x);
-    x->parts = hci_run_parts(e, HCI_LEAST_GROUPS);
+    x->parts = hci_run_parts(e, few);
     hci_status status = hci_candidates_copy(candidates, &list, note);
     if (status) return status;
     x->run = hci_memory_new(runs * x->parts + 1, sizeof *x->run);

@@ -19,9 +19,9 @@ typedef struct {
 } hci_run_equations;
 
 /* candidates: those that are in are the columns; what is expected of their values is in `precision` only. On
- * failure *equations is empty. HCI_ERROR_MEMORY. O(samples·columns²). */
+ * failure *equations is empty. few: as of hci_run_parts. HCI_ERROR_MEMORY. O(samples·columns²). */
 hci_status hci_run_equations_make(const hci_regression *regression, const hci_candidates *candidates,
-                                  hci_run_equations *equations, hci_note *note);
+                                  size_t few, hci_run_equations *equations, hci_note *note);
 void hci_run_equations_release(hci_run_equations *equations);
 
 #endif

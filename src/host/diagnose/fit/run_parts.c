@@ -1,5 +1,7 @@
 #include "host/diagnose/fit/run_parts.h"
 
+#include <math.h>
+
 #include "host/base/memory.h"
 
 static bool are_alike(const hci_run *a, const hci_run *b)
@@ -23,11 +25,34 @@ static bool one_is_alone(const hci_regression *e)
     return alone;
 }
 
+#define ALIKE 0.1 /* of the largest current, by which those of two runs of one kind differ at most */
+
+/* Whether two runs turn the same way at the same load. */
+static bool is_repeated(const hci_run_statistics *a, const hci_run_statistics *b, double most_A)
+{
+    const bool same_way = a->mean_speed_rad_per_s * b->mean_speed_rad_per_s >= 0.0;
+    return same_way && hypot(a->mean_id_A - b->mean_id_A, a->mean_iq_A - b->mean_iq_A) < ALIKE * most_A &&
+           fabs(a->current_A - b->current_A) < ALIKE * most_A;
+}
+
+bool hci_runs_all_differ(const hci_regression *e)
+{
+    const hci_run_statistics *x = e->samples->statistics;
+    double most_A = 0.0;
+    for (size_t r = 0; r < e->samples->run_count; ++r)
+        if (e->use[r]) most_A = fmax(most_A, x[r].current_A);
+    for (size_t r = 0; r < e->samples->run_count; ++r)
+        for (size_t k = 0; e->use[r] && k < r; ++k)
+            if (e->use[k] && is_repeated(&x[r], &x[k], most_A)) return false;
+    return true;
+}
+
 size_t hci_run_parts(const hci_regression *e, size_t few)
 {
     const size_t runs = hci_regression_runs_in_use(e);
     if (runs >= HCI_LEAST_GROUPS && one_is_alone(e)) return HCI_LEAST_GROUPS;
-    return runs > 0 && runs <= few ? (HCI_LEAST_GROUPS + runs) / runs : 1;
+    if (runs == 0 || runs > few) return 1;
+    return runs < HCI_LEAST_GROUPS ? (HCI_LEAST_GROUPS + runs) / runs : 2;
 }
 
 /* Where the samples of one run are: each of its segments cut to one of so many parts, all others empty. */

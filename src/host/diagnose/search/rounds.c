@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "host/diagnose/candidates/empirical_term.h"
+#include "host/diagnose/candidates/make_candidates.h"
 #include "host/diagnose/fit/model.h"
 #include "host/diagnose/search/backward.h"
 #include "host/diagnose/search/few_values.h"
@@ -11,6 +12,7 @@
 #include "host/diagnose/search/sensor_zeros.h"
 #include "host/diagnose/search/settle.h"
 #include "host/diagnose/search/stability.h"
+#include "host/diagnose/search/unlike_iron.h"
 
 enum { MOST_EFFECTS = 9, MOST_ROUNDS = 14 };
 
@@ -274,4 +276,32 @@ hci_status hci_search_without_denied(hci_search *s, hci_fitted_model *model, hci
     if (!status) status = try_others(s, model, &others, note);
     hci_fitted_model_release(&others);
     return status ? status : hci_search_renew(s, model, note);
+}
+
+/* ---- without means that keep their sign ---- */
+
+static hci_status try_symmetric(hci_search *s, hci_fitted_model *model, hci_fitted_model *other,
+                                hci_note *note)
+{
+    double share = 0.0;
+    s->symmetric = true;
+    hci_status status = hci_search_rounds(s, other, note);
+    if (!status) status = share_left(s, &other->candidates, &model->candidates, &share, note);
+    s->symmetric = !status && share < AS_GOOD;
+    if (s->symmetric) hci_fitted_model_replace(model, other);
+    return status;
+}
+
+hci_status hci_search_symmetric(hci_search *s, hci_fitted_model *model, hci_note *note)
+{
+    const hci_regression *e = s->regression;
+    hci_fitted_model other = {0};
+    if (hci_search_is_over(s) || !hci_candidates_are_one_sided(e->samples, e->use)) return HCI_OK;
+    hci_status status = hci_fitted_model_copy(model, &other, note);
+    if (!status && hci_mirror_is_mended(e, &other.candidates)) {
+        status = try_symmetric(s, model, &other, note);
+        if (!status) status = hci_search_renew(s, model, note);
+    }
+    hci_fitted_model_release(&other);
+    return status;
 }

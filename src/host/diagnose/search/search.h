@@ -38,11 +38,12 @@ typedef struct {
     bool known_only;                  /* nothing unknown competes */
     bool magnetic_only;               /* nor what direct currents do not tell from the magnetic circuit */
     bool no_current;                  /* nor what needs a current */
-    bool one_gain;                    /* a gain of the torque sensor competes, whatever the residual shows */
-    const bool *denied;               /* nor these, of each type; NULL: none */
-    bool from_no_load;                /* the search went on from what the runs without a current show */
-    bool whole_coenergy;              /* all terms of the co-energy are in, each with an expectation */
-    hci_fitted_model single;          /* the model with single terms, there; to be released */
+    bool symmetric;          /* nor means of the iron that keep their sign, where no load tells them */
+    bool one_gain;           /* a gain of the torque sensor competes, whatever the residual shows */
+    const bool *denied;      /* nor these, of each type; NULL: none */
+    bool from_no_load;       /* the search went on from what the runs without a current show */
+    bool whole_coenergy;     /* all terms of the co-energy are in, each with an expectation */
+    hci_fitted_model single; /* the model with single terms, there; to be released */
     const char *doing;
     double share, until; /* of all work: done so far, and when the step at hand is done */
     double kept_work;    /* of HCI_MOST_WORK, that is left for what follows */

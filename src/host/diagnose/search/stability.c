@@ -31,11 +31,13 @@ static void leaving_end(leaving *l)
     hci_memory_free(l->precision);
 }
 
-static hci_status leaving_start(hci_search *s, const hci_candidates *model, leaving *l, hci_note *note)
+/* few: up to so many runs are cut into parts. */
+static hci_status leaving_start(hci_search *s, const hci_candidates *model, size_t few, leaving *l,
+                                hci_note *note)
 {
     const size_t columns = hci_candidates_terms_in(model);
     *l = (leaving){.search = s, .model = model};
-    const hci_status status = hci_run_equations_make(s->regression, model, &l->equations, note);
+    const hci_status status = hci_run_equations_make(s->regression, model, few, &l->equations, note);
     if (status) return status;
     const size_t groups = l->equations.groups.count;
     l->precision = hci_memory_new(columns + 2 * groups + 1, sizeof *l->precision);
@@ -190,32 +192,36 @@ static hci_status untold_find(const leaving *l, const hci_effect_type *type, boo
     return made ? HCI_OK : hci_note_memory(note, NULL, "leaving runs out");
 }
 
-/* The same of the runs that the others tell, as long as there are enough of these. */
-static hci_status worth_in_told(const leaving *l, const hci_effect_type *type, double *worth, hci_note *note)
+/* The same of the runs that the others tell, as long as there are enough of these. told: out, of how many
+ * they are. */
+static hci_status worth_in_told(const leaving *l, const hci_effect_type *type, double *worth, size_t *told,
+                                hci_note *note)
 {
     bool *untold = hci_memory_new(l->equations.groups.count + 1, sizeof *untold);
-    size_t told = 0;
     if (!untold) return hci_note_memory(note, NULL, "leaving runs out");
-    const hci_status status = untold_find(l, type, untold, &told, note);
-    if (!status && told >= HCI_LEAST_GROUPS) *worth = worth_in(l, untold);
+    const hci_status status = untold_find(l, type, untold, told, note);
+    if (!status && *told >= HCI_LEAST_GROUPS) *worth = worth_in(l, untold);
     hci_memory_free(untold);
     return status;
 }
 
-static hci_status worth_of(leaving *l, const hci_effect_type *type, double *worth, hci_note *note)
+/* told: out, how many runs were asked. */
+static hci_status worth_of(leaving *l, const hci_effect_type *type, double *worth, size_t *told,
+                           hci_note *note)
 {
     hold(l, type);
+    *told = l->equations.groups.count;
     if (!hci_left_out_squares(&l->equations.groups, l->equations.precision, l->with) ||
         !hci_left_out_squares(&l->equations.groups, l->precision, l->without))
         return hci_note_memory(note, NULL, "leaving runs out");
     *worth = worth_in(l, NULL);
-    return *worth < 0.0 ? worth_in_told(l, type, worth, note) : HCI_OK;
+    return *worth < 0.0 ? worth_in_told(l, type, worth, told, note) : HCI_OK;
 }
 
 hci_status hci_search_left_out(hci_search *s, const hci_candidates *model, double *misfit, hci_note *note)
 {
     leaving l;
-    hci_status status = leaving_start(s, model, &l, note);
+    hci_status status = leaving_start(s, model, HCI_LEAST_GROUPS, &l, note);
     *misfit = 0.0;
     if (status) return status;
     const hci_groups *groups = &l.equations.groups;
@@ -275,7 +281,7 @@ hci_status hci_search_unpredicted(hci_search *s, const hci_candidates *model, do
     if (hci_regression_runs_in_use(s->regression) < LEAST_RUNS || hci_candidates_types_in(model) == 0 ||
         hci_search_is_interrupted(s))
         return HCI_OK;
-    hci_status status = leaving_start(s, model, &l, note);
+    hci_status status = leaving_start(s, model, HCI_LEAST_GROUPS, &l, note);
     if (status) return status;
     status = promises_sum(&l, false, &p, note);
     if (!status && 3 * p.told < 2 * l.equations.groups.count) status = promises_sum(&l, true, &p, note);
@@ -301,28 +307,67 @@ static hci_status is_fickle(leaving *l, const hci_effect_type *type, bool *fickl
     return status;
 }
 
-/* The type that is worth least, or not found when other runs are left out; NULL where all predict. */
+/* What a type is worth; below 0 where it is of no use, or not found when other runs are left out. told: out,
+ * how many runs say so. */
+static hci_status use_of(leaving *l, const hci_effect_type *type, double *worth, size_t *told, hci_note *note)
+{
+    bool fickle = false;
+    hci_status status = worth_of(l, type, worth, told, note);
+    if (!status) status = is_fickle(l, type, &fickle, note);
+    if (fickle && *worth >= 0.0) *told = 0;
+    if (fickle) *worth = fmin(*worth, 0.0) - 1.0;
+    return status;
+}
+
+/* Runs left out, and halves of them where each of a few is the only one of its load and direction. */
+typedef struct {
+    leaving whole, halves;
+    bool has_halves;
+} leavings;
+
+static void leavings_end(leavings *x)
+{
+    leaving_end(&x->whole);
+    if (x->has_halves) leaving_end(&x->halves);
+}
+
+static hci_status leavings_start(hci_search *s, const hci_candidates *model, leavings *x, hci_note *note)
+{
+    *x = (leavings){.has_halves = false};
+    hci_status status = leaving_start(s, model, HCI_LEAST_GROUPS, &x->whole, note);
+    if (status || hci_run_parts(s->regression, HCI_LEAST_GROUPS) > 1 ||
+        hci_run_parts(s->regression, HCI_FEW_RUNS) == 1 || !hci_runs_all_differ(s->regression))
+        return status;
+    status = leaving_start(s, model, HCI_FEW_RUNS, &x->halves, note);
+    x->has_halves = !status;
+    if (status) leaving_end(&x->whole);
+    return status;
+}
+
+/* The type that is worth least, or not found when other runs are left out; NULL where all predict. Where too
+ * few runs are told by the others halves of them are asked. */
 static hci_status useless_find(hci_search *s, const hci_candidates *model, const hci_effect_type **useless,
                                hci_note *note)
 {
-    leaving l;
+    leavings l;
     double least = 0.0;
     *useless = NULL;
-    hci_status status = leaving_start(s, model, &l, note);
+    hci_status status = leavings_start(s, model, &l, note);
     if (status) return status;
-    for (size_t r = 0; r < hci_candidate_types() && l.equations.groups.count >= HCI_LEAST_GROUPS && !status;
-         ++r) {
+    const bool enough = l.whole.equations.groups.count >= HCI_LEAST_GROUPS;
+    for (size_t r = 0; r < hci_candidate_types() && enough && !status; ++r) {
+        const hci_effect_type *type = hci_candidate_type(r);
         double worth = 0.0;
-        bool fickle = false;
-        if (!is_asked(s, model, hci_candidate_type(r))) continue;
-        status = worth_of(&l, hci_candidate_type(r), &worth, note);
-        if (!status) status = is_fickle(&l, hci_candidate_type(r), &fickle, note);
-        if (fickle) worth = fmin(worth, 0.0) - 1.0;
+        size_t told = 0;
+        if (!is_asked(s, model, type)) continue;
+        status = use_of(&l.whole, type, &worth, &told, note);
+        if (!status && worth < 0.0 && told < HCI_LEAST_GROUPS && l.has_halves)
+            status = use_of(&l.halves, type, &worth, &told, note);
         if (status || !(worth < least)) continue;
         least = worth;
-        *useless = hci_candidate_type(r);
+        *useless = type;
     }
-    leaving_end(&l);
+    leavings_end(&l);
     return status;
 }
 
@@ -344,7 +389,7 @@ hci_status hci_search_stability(hci_search *s, hci_attribution *a, hci_note *not
 {
     leaving l;
     if (hci_search_is_interrupted(s)) return HCI_OK;
-    hci_status status = leaving_start(s, &a->model.candidates, &l, note);
+    hci_status status = leaving_start(s, &a->model.candidates, HCI_LEAST_GROUPS, &l, note);
     if (status) return status;
     for (size_t r = 0; r < a->types && l.equations.groups.count >= HCI_LEAST_GROUPS && !status; ++r)
         if (hci_candidates_have(l.model, a->verdict[r].type)) status = stays_count(&l, &a->verdict[r], note);

@@ -24,7 +24,7 @@ static double residual_Nm[RUNS * SAMPLES], variance[RUNS * SAMPLES];
 static hci_binned_samples samples;
 static hci_candidates list;
 static int richness;
-static bool known_only, magnetic_only, has_neutral;
+static bool known_only, magnetic_only, has_neutral, symmetric;
 
 /* One turn each at three speeds and currents, with noise for a residual. */
 void setUp(void)
@@ -32,7 +32,7 @@ void setUp(void)
     seed = 77;
     declared = NO_EFFECTS;
     richness = 0;
-    known_only = magnetic_only = has_neutral = false;
+    known_only = magnetic_only = has_neutral = symmetric = false;
     back_emf[0] = (hci_wave){1.0, 1, 0.2, 0.0};
     back_emf[1] = (hci_wave){2.0, -1, 0.001, 0.0};
     machine = (hci_machine){.pole_pairs = P, .back_emf = back_emf, .back_emf_count = 1};
@@ -78,7 +78,8 @@ static hci_status make_from(const hci_candidates *known)
                                           .richness = richness,
                                           .known_only = known_only,
                                           .magnetic_only = magnetic_only,
-                                          .has_neutral = has_neutral};
+                                          .has_neutral = has_neutral,
+                                          .symmetric = symmetric};
     hci_note note = {{0}};
     hci_candidates_release(&list);
     return hci_candidates_make(&source, known, &list, &note);
@@ -90,6 +91,18 @@ static void make(void)
     hci_binned_samples_release(&samples);
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_binned_samples_make(&machine, NAN, run, RUNS, &samples, &note));
     TEST_ASSERT_EQUAL_INT(HCI_OK, make_from(NULL));
+}
+
+/* Candidates of order 0 with that parameter. */
+static int mean_terms_of(const char *effect, const char *name)
+{
+    int count = 0;
+    for (size_t k = 0; k < list.count; ++k) {
+        const hci_candidate *x = &list.candidate[k];
+        count += x->term[0].order == 0.0 && strcmp(x->type->name, effect) == 0 &&
+                 strcmp(x->type->parameter[x->term[0].parameter].name, name) == 0;
+    }
+    return count;
 }
 
 /* Weighted means at each speed and direction, weights 1/variance; nothing of a run that is not used. */
@@ -303,6 +316,34 @@ static void test_without_current_no_saturation(void)
 }
 
 /* An even harmonic takes poles that differ, which the declared back-EMF would show. */
+/* A mean torque that keeps its sign with the load is told by loads of both signs: of a run each, or of one
+ * whose current changes its sign. Beside an i_d it is a part of what turns its sign, where all loads have
+ * one. */
+static void test_a_mean_that_keeps_its_sign(void)
+{
+    for (int k = 0; k < 6; ++k) {
+        const double id_A = k < 3 ? -0.8 : 0.0;
+        for (size_t j = 0; j < SAMPLES; ++j) /* zeros of the sensors are no load of both signs */
+            for (int phase = 0; phase < 3; ++phase)
+                run[0].i_A[3 * j + (size_t)phase] = 0.1 * (phase - 1);
+        for (size_t j = 0; j < SAMPLES; ++j)
+            rec_phases(id_A, k == 1 || (k == 2 && j < SAMPLES / 2) ? -1.0 : 1.0, P * run[1].theta_m_rad[j],
+                       run[1].i_A + 3 * j);
+        symmetric = true;
+        make();
+        TEST_ASSERT_EQUAL(k == 0, hci_candidates_are_one_sided(&samples, use));
+        TEST_ASSERT_EQUAL(k > 0, mean_terms_of("saturation", "d0q3_cosine"));
+        TEST_ASSERT_EQUAL(k > 0, mean_terms_of("saturation", "d2q1_cosine"));
+        TEST_ASSERT_EQUAL(k > 0, mean_terms_of("reluctance", "dq_cosine"));
+        TEST_ASSERT_EQUAL(1, mean_terms_of("saturation", "d1q2_cosine"));
+        TEST_ASSERT_EQUAL(1, mean_terms_of("reluctance", "dd_cosine"));
+        symmetric = false;
+        make();
+        TEST_ASSERT_EQUAL(1, mean_terms_of("saturation", "d0q3_cosine"));
+        TEST_ASSERT_EQUAL(1, mean_terms_of("reluctance", "dq_cosine"));
+    }
+}
+
 static void test_even_harmonics_only_beside_even_ones(void)
 {
     make();
@@ -549,6 +590,7 @@ int main(void)
     RUN_TEST(test_friction_has_as_many_parts_as_speeds);
     RUN_TEST(test_the_magnets_need_a_temperature);
     RUN_TEST(test_without_current_no_saturation);
+    RUN_TEST(test_a_mean_that_keeps_its_sign);
     RUN_TEST(test_even_harmonics_only_beside_even_ones);
     RUN_TEST(test_zero_sequences_need_a_neutral);
     RUN_TEST(test_orders_stand_out_of_the_residual);

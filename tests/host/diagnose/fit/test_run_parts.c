@@ -13,13 +13,15 @@ static bool use[MOST_RUNS];
 static hci_segment segment[SEGMENTS];
 static hci_binned_samples samples;
 static hci_regression regression;
+static hci_run_statistics statistics[MOST_RUNS];
 
 void setUp(void)
 {
     memset(run, 0, sizeof run);
     memset(use, 0, sizeof use);
     memset(segment, 0, sizeof segment);
-    samples = (hci_binned_samples){.segment = segment, .segment_count = SEGMENTS};
+    memset(statistics, 0, sizeof statistics);
+    samples = (hci_binned_samples){.segment = segment, .segment_count = SEGMENTS, .statistics = statistics};
     regression = (hci_regression){.samples = &samples, .runs = run, .use = use};
 }
 
@@ -53,6 +55,29 @@ static void test_few_runs_are_cut(void)
     TEST_ASSERT_EQUAL(2, hci_run_parts(&regression, 3));
     runs_set(MOST_RUNS, 4, HCI_TORQUE_MEASURED);
     TEST_ASSERT_EQUAL(1, hci_run_parts(&regression, 3));
+    TEST_ASSERT_EQUAL(2, hci_run_parts(&regression, 4));
+    runs_set(MOST_RUNS, 5, HCI_TORQUE_MEASURED);
+    TEST_ASSERT_EQUAL(2, hci_run_parts(&regression, 5));
+}
+
+/* Idle both ways and three loads; each of the two differences makes it so. */
+static void test_runs_that_all_differ(void)
+{
+    static const double SPEED[] = {6.0, -6.0, 6.0, 6.0, 6.0}, IQ[] = {0.0, 0.0, 28.0, 53.0, 68.0};
+    runs_set(5, 5, HCI_TORQUE_MEASURED);
+    for (size_t r = 0; r < 5; ++r) {
+        statistics[r].mean_speed_rad_per_s = SPEED[r];
+        statistics[r].mean_iq_A = statistics[r].current_A = IQ[r];
+    }
+    TEST_ASSERT_TRUE(hci_runs_all_differ(&regression));
+    statistics[1].mean_speed_rad_per_s = 3.0;
+    TEST_ASSERT_FALSE(hci_runs_all_differ(&regression));
+    use[1] = false;
+    TEST_ASSERT_TRUE(hci_runs_all_differ(&regression));
+    statistics[3].mean_iq_A = statistics[3].current_A = 62.0; /* within 6.8 of the largest */
+    TEST_ASSERT_FALSE(hci_runs_all_differ(&regression));
+    statistics[3].mean_id_A = -40.0;
+    TEST_ASSERT_TRUE(hci_runs_all_differ(&regression));
 }
 
 /* Any of them may be the one that is alone, and each of the two differences makes it so. */
@@ -204,6 +229,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_few_runs_are_cut);
+    RUN_TEST(test_runs_that_all_differ);
     RUN_TEST(test_one_without_a_sensor_that_is_alone);
     RUN_TEST(test_one_with_a_sensor_tells_for_all);
     RUN_TEST(test_one_that_is_not_in_use_keeps_no_company);
