@@ -1,6 +1,6 @@
 #!/bin/sh
 # What `diagnose` finds of benches that have several faults at a time, or hardly enough recordings, is that in tests/files/kept/faults.txt, number by
-# number. After a change that is meant: --renew, and look at the differences.
+# number, and in the same words. After a change that is meant: --renew, and look at the differences.
 #   cli_kept_faults.sh SOURCE_DIR BUILD_DIR HCI_SOLVE [--renew]
 . "$1/tests/support/common.sh"
 use_plain_build
@@ -33,8 +33,10 @@ runs() {
 found() {
     name=$1
     shift
-    "$hci_solve" diagnose bench --runs "$name.csv" "$@" -q -o "kept/$name" >stdout 2>stderr || [ $? -eq 1 ]
+    "$hci_solve" diagnose bench --runs "$name.csv" "$@" --color never -o "kept/$name" >stdout 2>stderr </dev/null || [ $? -eq 1 ]
     check "$name is diagnosed: $(cat stderr)" [ -s "kept/$name/summary.json" ]
+    cat stdout stderr | no_numbers >"kept/$name.said.txt"
+    page_words "kept/$name/report.html" >"kept/$name.page.txt"
 }
 four='60:0:2 -60:0:6 120:-2:4 -200:1:7:h'
 pull='0.03 * sin(18 * a + 0.5) + 0.01 * cos(36 * a) - 0.02 * sign(v) - 2e-4 * v'

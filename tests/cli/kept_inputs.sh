@@ -1,4 +1,4 @@
-# Inputs of the tests whose results are kept, and kept_all: sourced by cli_kept_*.sh, after common.sh.
+# Inputs of the tests whose results are kept, kept_all and what they share: sourced by cli_kept_*.sh, after common.sh.
 cd "$source_dir" || exit 1
 export OPENBLAS_NUM_THREADS=1
 a=data/machine_a h=data/scenarios/02/harmonics.csv t=data/scenarios/02/target.csv
@@ -67,6 +67,14 @@ kept() {
     shift 2
     run "$code" "$@" -q --json -o "kept/$name"
     [ -e "kept/$name/summary.json" ] || cp "$work/stdout" "kept/$name.said.json"
+}
+
+# Words without numbers, whose last digit may be rounded otherwise; those of a page are without tags, digests and versions too.
+no_numbers() {
+    sed 's/[-+]\{0,1\}[0-9][0-9.]*\(e[-+][0-9]*\)\{0,1\}/0/g'
+}
+page_words() { # PAGE
+    sed "s/<[^>]*>/ /g; s|$work|.|g; s/hci-solve [0-9.]*//g; s/[0-9a-f]\{8,\}//g" "$1" | grep -v -i 'crc\|version' | no_numbers
 }
 
 # kept_all NAME: all of it beside tests/files/kept/NAME.txt; --renew: writes that anew.
