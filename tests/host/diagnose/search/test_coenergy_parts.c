@@ -258,21 +258,26 @@ static void test_the_highest_order(void)
     TEST_ASSERT_EQUAL_INT(90, highest_order(&regression));
 }
 
-/* Two hundredths of the largest current apart. */
+/* Two hundredths of the largest current apart, whatever its size. */
 static void test_runs_at_different_currents(void)
 {
-    TEST_ASSERT_EQUAL_UINT64(6, different_currents(&regression));
-    statistics[3].mean_iq_A = statistics[1].mean_iq_A + 0.099;
-    TEST_ASSERT_EQUAL_UINT64(5, different_currents(&regression));
-    statistics[3].mean_iq_A = statistics[1].mean_iq_A + 0.101;
-    TEST_ASSERT_EQUAL_UINT64(6, different_currents(&regression));
-    statistics[3].mean_iq_A = statistics[1].mean_iq_A, statistics[3].mean_id_A = 0.2;
-    TEST_ASSERT_EQUAL_UINT64(6, different_currents(&regression));
-    use[1] = false, statistics[3].mean_id_A = 0.0;
-    TEST_ASSERT_EQUAL_UINT64(5, different_currents(&regression));
-    use[1] = true;
-    statistics[0].current_A = 0.0, statistics[5].current_A = 60.0;
-    TEST_ASSERT_EQUAL_UINT64(2, different_currents(&regression)); /* 1.2 A apart: 1 and 5 */
+    for (double scale = 1.0; scale > 1e-4; scale *= 0.01) {
+        setUp();
+        for (int r = 0; r < RUNS; ++r)
+            statistics[r].current_A *= scale, statistics[r].mean_iq_A *= scale;
+        TEST_ASSERT_EQUAL_UINT64(6, different_currents(&regression));
+        statistics[3].mean_iq_A = statistics[1].mean_iq_A + 0.099 * scale;
+        TEST_ASSERT_EQUAL_UINT64(5, different_currents(&regression));
+        statistics[3].mean_iq_A = statistics[1].mean_iq_A + 0.101 * scale;
+        TEST_ASSERT_EQUAL_UINT64(6, different_currents(&regression));
+        statistics[3].mean_iq_A = statistics[1].mean_iq_A, statistics[3].mean_id_A = 0.2 * scale;
+        TEST_ASSERT_EQUAL_UINT64(6, different_currents(&regression));
+        use[1] = false, statistics[3].mean_id_A = 0.0;
+        TEST_ASSERT_EQUAL_UINT64(5, different_currents(&regression));
+        use[1] = true;
+        statistics[0].current_A = 0.0, statistics[5].current_A = 60.0 * scale;
+        TEST_ASSERT_EQUAL_UINT64(2, different_currents(&regression)); /* 1.2 A apart: 1 and 5 */
+    }
 }
 
 int main(void)

@@ -115,6 +115,18 @@ static void test_the_iron_beside_a_series(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.2, 0.1, least(series));
 }
 
+/* However little a series explains, an effect of the iron beside it has to be decisive, and no other has. */
+static void test_the_iron_beside_a_faint_series(void)
+{
+    record_two(HCI_TORQUE_MEASURED);
+    add("saturation", 20.0);
+    const hci_verdict *emf = add("back_emf", 5.0), *friction = add("friction", 5.0);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 10.0, least(emf));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 3e-4 * 20.0, least(friction));
+    attribution.verdict[0].in = false;
+    TEST_ASSERT_TRUE(least(emf) < 0.01);
+}
+
 static void add_order(const char *effect, const char *parameter, double order)
 {
     const hci_candidate x = candidate_of(effect, parameter, NULL, order);
@@ -219,6 +231,7 @@ int main(void)
     RUN_TEST(test_beside_an_acceleration);
     RUN_TEST(test_the_iron_beside_jitter);
     RUN_TEST(test_the_iron_beside_a_series);
+    RUN_TEST(test_the_iron_beside_a_faint_series);
     RUN_TEST(test_a_linear_part_beside_a_series);
     RUN_TEST(test_unlike_phases_beside_a_series);
     RUN_TEST(test_what_a_sensor_that_swings_read);
