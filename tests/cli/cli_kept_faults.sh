@@ -69,8 +69,8 @@ runs warm 150 0.01 "c = 20 + 15 * r + 0.05 * k; T = T * (1 - 0.0011 * (c - 20)) 
 found warm
 runs ripple 160 0.0125 "q = iq + 0.4 * sin(6 * e + 0.2); T += 0.3 * (q - iq) + $pull; for (p = 0; p < 3; p++) x[p] += (q - iq) * sin(e - 2 * pi * p / 3)" $four
 found ripple
-runs swings 300 0.01 "v = w * (1 + 0.15 * sin(2 * a + r) + 0.1 * k / 300); T += $pull + 6e-4 * v * v * 0.3 * cos(2 * a + r)" $four
-found swings
+runs a_shaft_whose_speed_goes_up_and_down 300 0.01 "v = w * (1 + 0.15 * sin(2 * a + r) + 0.1 * k / 300); T += $pull + 6e-4 * v * v * 0.3 * cos(2 * a + r)" $four
+found a_shaft_whose_speed_goes_up_and_down
 
 # Many turns of few samples each, whose mean is taken; an index that was lost; stamps that come early and late; runs that are no more of one machine.
 runs turns 1500 0.0173 "T += $pull + 0.01 * sin(a / 7)" 60:0:2 -90:0:6

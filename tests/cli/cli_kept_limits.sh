@@ -49,8 +49,16 @@ at flux init flux --pole-pairs 3 --flux 0.011 --inductance-d 3e-3 --inductance-q
 # Models.
 at inputs.fmu export-fmu data/machine_c --inputs currents --sources-only --fmi 3
 at driven.fmu export-fmu $a --drive data/drive/machine_a_10kHz.csv --sources-only
-# Two folders of one make, of which a motor stands out; what they have in common.
-awk 'BEGIN { print "motor,batch,date,machine,runs"; for (k = 1; k <= 14; k++) printf "n%d,%s,%02d.03.2025,simple,%s\n", k, k % 3 ? "C" : "D", k, k == 6 ? "worn.csv" : "runs" k % 6 + 1 ".csv" }' >more.csv
+# Two folders of one make, of which a motor stands out; in one of its batches torques are larger, and rise from day to day.
+echo motor,batch,date,machine,runs >more.csv
+for k in 01 02 03 04 05 06 07 08 09 10 11 12 13 14; do
+    list=runs$(((${k#0} - 1) % 6 + 1)).csv batch=$(echo C D D | cut -d' ' -f$((${k#0} % 3 + 1)))
+    log=$(sed -n '2s/,.*//p' "$list")
+    awk -F, -v OFS=, -v k="$k" -v batch="$batch" 'NR > 1 { $7 *= (batch == "D" ? 1.02 : 1) * (1 + 0.0005 * k) } 1' "$log" >"n$k.csv"
+    printf 'file,role\nn%s.csv,fit\nback.csv,fit\n' "$k" >"list$k.csv"
+    [ "$k" != 06 ] || cp worn.csv list06.csv
+    echo "n$k,$batch,$k.03.2025,simple,list$k.csv"
+done >>more.csv
 run 0 batch motors.csv --command fit -j 1 -q -o first
 run 0 batch more.csv --command fit -j 1 -q -o second
 at line fleet first second

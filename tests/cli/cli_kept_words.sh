@@ -94,6 +94,9 @@ page limited solve m --target $t --harmonics $h --limit-current 12 --limit-volta
 page driven solve $a --target $t --auto --drive data/drive/machine_a_10kHz.csv --speed 600 --report
 page few solve data/machine_b --target data/scenarios/12/target.csv --auto 9 --max-loss 1.5 --report
 page held solve $a --target $t --auto --limit-current 17 --limit-rms 10 --report
+mkdir single && sed 's/^pole_pairs,2/pole_pairs,1/' simple/machine.csv >single/machine.csv && cp simple/back_emf.csv single
+said single check single slow.csv back.csv fast.csv
+said verbose check simple slow.csv fast.csv --verbose
 said check check simple slow.csv back.csv fast.csv
 said wrong check $a slow.csv back.csv
 page worn diagnose simple --runs worn.csv
