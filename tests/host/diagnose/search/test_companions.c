@@ -167,6 +167,7 @@ static void test_unlike_phases_beside_a_series(void)
     record_two(HCI_TORQUE_MEASURED);
     const hci_verdict *emf = add("back_emf", 300.0);
     add("saturation", 4000.0);
+    add_order("cogging", "sine", 6.0);
     add_order("back_emf", "pos_sine", 3.0);
     add_order("saturation", "d1q2_cosine", 0.0);
     TEST_ASSERT_EQUAL_DOUBLE(0.0, hci_companion_of_series(&dataset.regression, &attribution, emf));
@@ -223,6 +224,65 @@ static void test_the_iron_beside_cogging_of_a_crawl(void)
     run[0].hardly_accelerates = false;
 }
 
+/* ---- in whichever order ---- */
+
+enum { EFFECTS = 5 };
+
+static const struct {
+    const char *effect;
+    double gain;
+} GAIN[EFFECTS] = {{"saturation", 3e4},
+                   {"rotor_inertia", 4e5},
+                   {"torque_sensor", 2e4},
+                   {"back_emf", 300.0},
+                   {"friction", 50.0}};
+
+/* Verdicts from one on, around and around, and the terms of the model likewise: what each has to explain, in
+ * the order of GAIN, and for the back-EMF beside the series. */
+static void least_from(size_t from, double out[EFFECTS + 2])
+{
+    static const struct {
+        const char *effect, *parameter;
+        double order, value;
+    } TERM[] = {{"saturation", "d1q2_cosine", 0.0, 1.0},       {"torque_sensor", "offset", 0.0, 0.1},
+                {"torque_sensor", "time_constant", 0.0, 1e-3}, {"back_emf", "sine", 1.0, 0.1},
+                {"saturation", "d0q3_sine", 6.0, 1.0},         {"back_emf", "sine", 5.0, 0.1}};
+    const size_t terms = sizeof TERM / sizeof *TERM;
+    const hci_verdict *v[EFFECTS];
+    hci_fitted_model_release(&attribution.model);
+    memset(&attribution, 0, sizeof attribution);
+    for (size_t k = 0; k < EFFECTS; ++k)
+        v[(from + k) % EFFECTS] = add(GAIN[(from + k) % EFFECTS].effect, GAIN[(from + k) % EFFECTS].gain);
+    for (size_t k = 0; k < terms; ++k) {
+        hci_candidate x = candidate_of(TERM[(from + k) % terms].effect, TERM[(from + k) % terms].parameter,
+                                       NULL, TERM[(from + k) % terms].order);
+        x.term[0].value = TERM[(from + k) % terms].value;
+        TEST_ASSERT_EQUAL_INT(HCI_OK, hci_candidates_add(&attribution.model.candidates, &x, &note));
+    }
+    for (size_t k = 0; k < EFFECTS; ++k)
+        out[k] = least(v[k]);
+    attribution.types = EFFECTS;
+    out[EFFECTS] = hci_companion_of_sensor(&attribution, v[4]);
+    for (size_t k = 0; k < EFFECTS; ++k) /* an inertia and a lag would stand in for the linear part */
+        attribution.verdict[k].in = attribution.verdict[k].type->is_series || &attribution.verdict[k] == v[3];
+    out[EFFECTS + 1] = hci_companion_of_series(&dataset.regression, &attribution, v[3]);
+}
+
+static void test_the_order_of_effects_does_not_matter(void)
+{
+    double first[EFFECTS + 2], other[EFFECTS + 2];
+    record_two(HCI_TORQUE_MEASURED);
+    least_from(0, first);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 2000.0, first[3]); /* half a per cent of what the inertia explains */
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 40.0, first[EFFECTS]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 3000.0, first[EFFECTS + 1]);
+    for (size_t from = 1; from < 30; ++from) {
+        least_from(from, other);
+        for (size_t k = 0; k < EFFECTS + 2; ++k)
+            TEST_ASSERT_DOUBLE_WITHIN(1e-9, first[k], other[k]);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -237,5 +297,6 @@ int main(void)
     RUN_TEST(test_what_a_sensor_that_swings_read);
     RUN_TEST(test_delays_within_a_slope);
     RUN_TEST(test_the_iron_beside_cogging_of_a_crawl);
+    RUN_TEST(test_the_order_of_effects_does_not_matter);
     return UNITY_END();
 }
