@@ -127,6 +127,40 @@ static void test_prices_are_summed(void)
     TEST_ASSERT_EQUAL_DOUBLE(3.0, price_of(&model, type("cogging")));
 }
 
+/* The type without which the torque per ampere is another one by most; of a machine that has a quarter of
+ * what it declares too. */
+static void test_the_scale_of_a_model(void)
+{
+    static const hci_effects none = {NULL, 0};
+    const hci_effect_type *scale = NULL;
+    double gain = 9.0;
+    hci_note note = {{0}};
+    wave[1].sine = 0.25, wave[2].sine = 0.0;
+    regression.declared = &none;
+    for (double quarter = 1.0; quarter < 5.0; quarter += 3.0) {
+        regression.declared_constant = 1.5 * 0.25 * quarter;
+        model.count = 0;
+        add("friction", "coulomb", 0.0, 0.1);
+        TEST_ASSERT_EQUAL_INT(HCI_OK, scale_find(&search, &model, &scale, &gain, &note));
+        TEST_ASSERT_TRUE(scale == NULL && gain == 0.0);
+        add("back_emf", "sine", 1.0, -0.05);
+        TEST_ASSERT_EQUAL_INT(HCI_OK, scale_find(&search, &model, &scale, &gain, &note));
+        TEST_ASSERT_EQUAL_PTR(type("back_emf"), scale);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, -0.2, gain);
+        hci_candidate *phase = add("phase_imbalance", "a", 0.0, 0.03); /* a hundredth of the torque of all */
+        TEST_ASSERT_EQUAL_INT(HCI_OK, scale_find(&search, &model, &scale, &gain, &note));
+        TEST_ASSERT_EQUAL_PTR(type("back_emf"), scale);
+        phase->term[0].value = 1.5;
+        TEST_ASSERT_EQUAL_INT(HCI_OK, scale_find(&search, &model, &scale, &gain, &note));
+        TEST_ASSERT_EQUAL_PTR(type("phase_imbalance"), scale);
+        TEST_ASSERT_TRUE(gain > 0.4);
+    }
+    wave[1].sine = 0.0, model.count = 0; /* without the type there would be none */
+    add("back_emf", "sine", 1.0, 0.25);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, scale_find(&search, &model, &scale, &gain, &note));
+    TEST_ASSERT_TRUE(scale == NULL && gain == 0.0);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -135,5 +169,6 @@ int main(void)
     RUN_TEST(test_what_magnets_make);
     RUN_TEST(test_how_late_a_channel_is);
     RUN_TEST(test_prices_are_summed);
+    RUN_TEST(test_the_scale_of_a_model);
     return UNITY_END();
 }
