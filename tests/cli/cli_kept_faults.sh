@@ -41,13 +41,11 @@ found() {
 four='60:0:2 -60:0:6 120:-2:4 -200:1:7:h'
 pull='0.03 * sin(18 * a + 0.5) + 0.01 * cos(36 * a) - 0.02 * sign(v) - 2e-4 * v'
 
-# Cogging, friction and: a phase that reads too much and one that is off; unequal phases; iron; a sensor that lags; an angle that is late and eccentric.
+# Cogging, friction and: a phase that reads too much and one that is off; unequal phases; a sensor that lags; an angle that is late and eccentric.
 runs phases 150 0.01 "T += $pull; x[1] *= 1.04; x[0] += 0.15" $four
 found phases --target $t
 runs unequal 150 0.01 "T += $pull + x[2] * 0.012 * sin(e - 4 * pi / 3) + 0.006 * iq * sin(6 * e + 1) + 0.004 * sin(a)" $four
 found unequal
-runs iron 150 0.01 "T += $pull - 3e-4 * iq * iq * iq + 0.003 * iq * iq * iq / 10 * sin(6 * e) - 4.5e-3 * id * iq" 60:0:2 -60:-3:6 120:-5:8 -100:2:-5 80:0:8 90:-2:4:h
-found iron
 runs sensor 160 0.0125 "s = 6 * w * 1e-3; g = 1 / sqrt(1 + s * s); T = 1.03 * 0.3 * iq + 0.04 * iq * g * sin(6 * e + 0.3 - atan2(s, 1)) + 0.03 - 0.02 * sign(v) + 0.002 * noise()" $four 400:0:5
 found sensor
 runs late 150 0.01 "T += $pull; m = a - 2e-4 * v + 0.006 * sin(a + 0.4)" $four
@@ -73,7 +71,7 @@ runs a_shaft_whose_speed_goes_up_and_down 300 0.01 "v = w * (1 + 0.15 * sin(2 * 
 found a_shaft_whose_speed_goes_up_and_down
 
 # Many turns of few samples each, whose mean is taken; an index that was lost; stamps that come early and late; runs that are no more of one machine.
-runs turns 1500 0.0173 "T += $pull + 0.01 * sin(a / 7)" 60:0:2 -90:0:6
+runs turns 700 0.0173 "T += $pull + 0.01 * sin(a / 7)" 60:0:2 -90:0:6
 found turns
 runs index 160 0.0125 "T = r < 4 ? 0 : T; for (n = 1; n < 8; n++) T += 0.01 * sin((3 * n + 1) * a + n); m = a + (r == 2 ? 0.9 : 0); T += 0.001 * noise()" 60:0:0 60:0:0 -60:0:0 60:0:4
 found index

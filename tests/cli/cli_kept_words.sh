@@ -99,8 +99,6 @@ said single check single slow.csv back.csv fast.csv
 said verbose check simple slow.csv fast.csv --verbose
 said check check simple slow.csv back.csv fast.csv
 said wrong check $a slow.csv back.csv
-page worn diagnose simple --runs worn.csv
-page known diagnose simple --runs runs.csv
 page trade sweep $a --trade-off --torque 1 --currents 8 --harmonics few.csv --report
 page envelope sweep $a --envelope --speeds 0 --ripple 40 --limit-current 20 --harmonics few.csv --report
 page tune tune slow.csv fast.csv back.csv --pole-pairs 2 --torque-constant 0.3
