@@ -64,19 +64,33 @@ static void peak_to_peak_text(char text[HCI_SVG_NUMBER_SIZE], const hci_solution
     hci_svg_axis_text(text, r.high - r.low, "N·m");
 }
 
+/* Rounding has no order that is worst. */
+#define FAR_WITHIN 1e-3 /* of the tolerance */
+
+enum { WORST_SIZE = 128 };
+
+static void worst_error_text(char text[WORST_SIZE], const hci_solution *s)
+{
+    char error[HCI_SVG_NUMBER_SIZE], order[HCI_SVG_NUMBER_SIZE];
+    hci_svg_axis_text(error, s->worst_error_Nm, "N·m");
+    hci_svg_short_text(order, s->worst_order);
+    if (s->worst_error_Nm < FAR_WITHIN * s->tolerance_Nm)
+        snprintf(text, WORST_SIZE, "every order as wanted");
+    else
+        snprintf(text, WORST_SIZE, "worst error %s at order %s", error, order);
+}
+
 static void facts_line(char line[LINE_SIZE], const hci_solution_curves *c)
 {
     const hci_solution *s = c->solution;
-    char mean[HCI_SVG_NUMBER_SIZE], error[HCI_SVG_NUMBER_SIZE], order[HCI_SVG_NUMBER_SIZE],
-        before[HCI_SVG_NUMBER_SIZE], after[HCI_SVG_NUMBER_SIZE], loss[HCI_SVG_NUMBER_SIZE];
+    char mean[HCI_SVG_NUMBER_SIZE], before[HCI_SVG_NUMBER_SIZE], after[HCI_SVG_NUMBER_SIZE],
+        loss[HCI_SVG_NUMBER_SIZE], worst[WORST_SIZE];
     hci_svg_axis_text(mean, mean_torque_Nm(s), "N·m");
-    hci_svg_axis_text(error, s->worst_error_Nm, "N·m");
-    hci_svg_short_text(order, s->worst_order);
+    worst_error_text(worst, s);
     peak_to_peak_text(before, c, HCI_CURVE_BEFORE);
     peak_to_peak_text(after, c, HCI_CURVE_AFTER);
-    snprintf(line, LINE_SIZE,
-             "mean torque %s · worst error %s at order %s · peak to peak %s before, %s after", mean, error,
-             order, before, after);
+    snprintf(line, LINE_SIZE, "mean torque %s · %s · peak to peak %s before, %s after", mean, worst, before,
+             after);
     if (!isfinite(s->loss_to_plain)) return;
     hci_svg_short_text(loss, s->loss_to_plain);
     snprintf(line + strlen(line), LINE_SIZE - strlen(line), " · copper loss × %s", loss);

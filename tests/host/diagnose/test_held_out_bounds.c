@@ -22,10 +22,10 @@ static hci_attribution a;
 /* Two runs that were fitted, at 5 A and 100 rad/s at the most, and two held out. */
 void setUp(void)
 {
-    static const hci_run_statistics AT[RUNS] = {{.current_A = 5.0, .mean_speed_rad_per_s = 30.0},
-                                                {.current_A = 2.0, .mean_speed_rad_per_s = -100.0},
-                                                {.current_A = 4.0, .mean_speed_rad_per_s = 50.0},
-                                                {.current_A = 3.0, .mean_speed_rad_per_s = -60.0}};
+    static const hci_run_statistics AT[RUNS] = {{.current_A = 5.0, .pace_rad_per_s = 30.0},
+                                                {.current_A = 2.0, .pace_rad_per_s = 100.0},
+                                                {.current_A = 4.0, .pace_rad_per_s = 50.0},
+                                                {.current_A = 3.0, .pace_rad_per_s = 60.0}};
     memset(&d, 0, sizeof d);
     memset(&b, 0, sizeof b);
     memset(&a, 0, sizeof a);
@@ -66,11 +66,11 @@ void tearDown(void)
 
 static void test_runs_within_what_was_fitted(void)
 {
-    TEST_ASSERT_TRUE(is_within(&(hci_run_statistics){.current_A = 5.24, .mean_speed_rad_per_s = -104.0}, &b));
-    TEST_ASSERT_FALSE(is_within(&(hci_run_statistics){.current_A = 5.26, .mean_speed_rad_per_s = 10.0}, &b));
-    TEST_ASSERT_FALSE(is_within(&(hci_run_statistics){.current_A = 1.0, .mean_speed_rad_per_s = 106.0}, &b));
+    TEST_ASSERT_TRUE(is_within(&(hci_run_statistics){.current_A = 5.24, .pace_rad_per_s = 104.0}, &b));
+    TEST_ASSERT_FALSE(is_within(&(hci_run_statistics){.current_A = 5.26, .pace_rad_per_s = 10.0}, &b));
+    TEST_ASSERT_FALSE(is_within(&(hci_run_statistics){.current_A = 1.0, .pace_rad_per_s = 106.0}, &b));
     fitted[1] = false;
-    TEST_ASSERT_FALSE(is_within(&(hci_run_statistics){.current_A = 1.0, .mean_speed_rad_per_s = 32.0}, &b));
+    TEST_ASSERT_FALSE(is_within(&(hci_run_statistics){.current_A = 1.0, .pace_rad_per_s = 32.0}, &b));
 }
 
 /* Sums of squares over the runs held out within it; noise or resolution, whichever allows more. */
