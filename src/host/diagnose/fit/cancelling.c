@@ -40,8 +40,8 @@ static bool cancels(const hci_model *m, const hci_normal_equations *normal, cons
 #define EVEN    0.9  /* of the current, that its mean is in a run with one load */
 #define ALONG_D 0.15 /* of the current along q, that one along d is beside it */
 
-/* The loads of the runs in use. Returns how many; 0 where the current of one is not one. most_id: out, of
- * i_q. */
+/* The loads of the runs in use. Returns how many; 0 where one has no sensor of its torque, or no one current.
+ * most_id: out, of i_q. */
 static size_t loads_of(const hci_regression *e, hci_load *load, double *most_id)
 {
     double most_A = 0.0;
@@ -52,7 +52,9 @@ static size_t loads_of(const hci_regression *e, hci_load *load, double *most_id)
     for (size_t r = 0; r < e->samples->run_count; ++r) {
         const hci_run_statistics *x = &e->samples->statistics[r];
         if (!e->use[r] || x->current_A < LITTLE * most_A) continue;
-        if (x->is_direct || hypot(x->mean_id_A, x->mean_iq_A) < EVEN * x->current_A) return 0;
+        if (e->runs[r].torque_source != HCI_TORQUE_MEASURED || x->is_direct ||
+            hypot(x->mean_id_A, x->mean_iq_A) < EVEN * x->current_A)
+            return 0;
         *most_id = fmax(*most_id, fabs(x->mean_id_A) / fabs(x->mean_iq_A));
         load[count++] = (hci_load){x->mean_id_A, x->mean_iq_A, 0.0};
     }

@@ -39,8 +39,10 @@ bool hci_runs_all_differ(const hci_regression *e)
 {
     const hci_run_statistics *x = e->samples->statistics;
     double most_A = 0.0;
-    for (size_t r = 0; r < e->samples->run_count; ++r)
+    for (size_t r = 0; r < e->samples->run_count; ++r) {
+        if (e->use[r] && e->runs[r].torque_source != HCI_TORQUE_MEASURED) return false;
         if (e->use[r]) most_A = fmax(most_A, x[r].current_A);
+    }
     for (size_t r = 0; r < e->samples->run_count; ++r)
         for (size_t k = 0; e->use[r] && k < r; ++k)
             if (e->use[k] && is_repeated(&x[r], &x[k], most_A)) return false;

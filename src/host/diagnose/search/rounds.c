@@ -280,14 +280,15 @@ hci_status hci_search_without_denied(hci_search *s, hci_fitted_model *model, hci
 
 /* ---- without means that keep their sign ---- */
 
+/* Down to the noise: what is beside something unknown takes any values. */
 static hci_status try_symmetric(hci_search *s, hci_fitted_model *model, hci_fitted_model *other,
                                 hci_note *note)
 {
-    double share = 0.0;
     s->symmetric = true;
     hci_status status = hci_search_rounds(s, other, note);
-    if (!status) status = share_left(s, &other->candidates, &model->candidates, &share, note);
-    s->symmetric = !status && share < AS_GOOD;
+    bool is_all = false;
+    if (!status) status = hci_search_is_noise(s, &other->candidates, &is_all, note);
+    s->symmetric = !status && is_all;
     if (s->symmetric) hci_fitted_model_replace(model, other);
     return status;
 }
