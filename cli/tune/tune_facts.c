@@ -437,6 +437,15 @@ bool cli_tune_is_boundless(const cli_tuning *t)
     return e->peak_to_peak_Nm > fmax(t->mean_Nm, before_Nm);
 }
 
+bool cli_tune_promises_nothing(const cli_tuning *t)
+{
+    const hci_expected_ripple *e = &t->solution.expected;
+    double before_Nm, after_Nm;
+    if (!t->is_solved || e->state != HCI_RIPPLE_KNOWN || !hci_tuning_knows_ripple(&t->solution)) return false;
+    hci_tuning_swing(&t->solution, &before_Nm, &after_Nm);
+    return before_Nm >= t->solution.tolerance_Nm && !(e->peak_to_peak_Nm < before_Nm);
+}
+
 bool cli_tune_is_of_no_use(const cli_tuning *t)
 {
     double before_Nm, after_Nm;

@@ -119,6 +119,9 @@ double cli_tune_hangs_on_inertia_Nm(const cli_tuning *tune);
  * bounds nothing. */
 bool cli_tune_is_boundless(const cli_tuning *tune);
 
+/* Whether the bound on the ripple is no less than the ripple of a plain sine: no less is promised. */
+bool cli_tune_promises_nothing(const cli_tuning *tune);
+
 /* A table with which the known ripple is not smaller in the very model that it was solved for, or which takes
  * none away since none was found. */
 bool cli_tune_is_of_no_use(const cli_tuning *tune);

@@ -256,10 +256,25 @@ static void say_angle(cli_tuning *t, const char *angle_deg)
                        "with i_q alone, as in the recordings: what an i_d does they do not tell");
 }
 
+/* By how much the logs read the electrical angle too much, as was found or declared: the angle of the
+ * machine, in which the table is solved, is as much less. */
+static double read_too_much_deg(const hci_effects *list)
+{
+    const hci_effect_type *type = hci_effect_type_find("position_offset");
+    double angle_rad = 0.0;
+    for (size_t k = 0; k < list->count; ++k)
+        for (size_t j = 0; list->effect[k].type == type && j < list->effect[k].count; ++j)
+            angle_rad += list->effect[k].term[j].value;
+    return angle_rad * 180.0 / HCI_PI;
+}
+
 static bool inductances_are_declared(const hci_machine_data *m)
 {
     return m->inductance_count > 0 || (m->inductance_d_H > 0.0 && m->inductance_q_H > 0.0);
 }
+
+/* An angle of currents that a drive means to have at 0, and of sensors that differ. */
+#define LEAST_ANGLE_DEG 1.0
 
 /* Where all currents lie on one line or curve, what an effect that acts with the current makes off that line,
  * or a saliency that nobody declared, is supposed and not measured: the table keeps to it. */
@@ -271,6 +286,8 @@ static void keep_angle(cli_tuning *t, hci_solve_options *o, char text[32], cli_t
     t->keeps_angle = is_open && cli_tune_curve_is_kept(t, t->mean_Nm, &angle_deg);
     cli_tune_add_option(c, t->keeps_angle ? "method" : "auto", t->keeps_angle ? "pointwise" : NULL);
     if (!t->keeps_angle) return;
+    angle_deg += read_too_much_deg(&t->found.list);
+    if (fabs(angle_deg) < LEAST_ANGLE_DEG) angle_deg = 0.0;
     snprintf(text, 32, "%.3g", angle_deg);
     sscanf(text, "%lf", &angle_deg);
     t->current_angle_rad = angle_deg * HCI_PI / 180.0;

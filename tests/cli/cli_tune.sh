@@ -162,8 +162,8 @@ for way in 1 -1; do
             printf "%.3f,%.5f,%.4f,%.5f\n", t, x, way * w,
                 (way * 0.4 - 0.02 * sin(84 * x)) / (0.15 * (1 + 0.03 * cos(42 * x))) + 0.02 * (rand() - 0.5) } }' >"brake$way.csv"
 done
-run 0 tune brake1.csv brake-1.csv --pole-pairs 7 --flux 0.0142857142857143 --inertia 1e-4 -o brake
-says '^tuned: ' 'slowly by control' '  order 12: 0\.0(2|20|19)[0-9]* ± ' '  order 5 or 7: 0\.00(3|29|30)[0-9]* ± .* N·m/A' \
+run 1 tune brake1.csv brake-1.csv --pole-pairs 7 --flux 0.0142857142857143 --inertia 1e-4 -o brake # no less is promised than without the table
+says '^tuned, with something left open: .* do not promise less' 'slowly by control' '  order 12: 0\.0(2|20|19)[0-9]* ± ' '  order 5 or 7: 0\.00(3|29|30)[0-9]* ± .* N·m/A' \
     'a torque without ripple of 0\.4 N·m: what the recorded current makes against'
 check "cogging torque from one direction of it" [ "$(grep -c 'harmonics' brake/commands.sh)" -eq 0 ]
 # voltages that are mostly what the current drops are no back-EMF, rated for much or not
