@@ -260,10 +260,9 @@ static void say_angle(cli_tuning *t, const char *angle_deg)
  * machine, in which the table is solved, is as much less. */
 static double read_too_much_deg(const hci_effects *list)
 {
-    const hci_effect_type *type = hci_effect_type_find("position_offset");
     double angle_rad = 0.0;
     for (size_t k = 0; k < list->count; ++k)
-        for (size_t j = 0; list->effect[k].type == type && j < list->effect[k].count; ++j)
+        for (size_t j = 0; list->effect[k].type->is_angle_zero && j < list->effect[k].count; ++j)
             angle_rad += list->effect[k].term[j].value;
     return angle_rad * 180.0 / HCI_PI;
 }
