@@ -46,9 +46,6 @@ bool cli_tune_currents_are_in_line(const cli_tuning *t)
     return are_in_line(moments_of(t));
 }
 
-/* An angle of currents that a drive means to have at 0, and of sensors that differ. */
-#define LEAST_ANGLE_DEG 1.0
-
 /* Currents further from i_q make less than half of the torque of the shortest, if the angle is right: a
  * torque that small beside them is none to go by. */
 #define MOST_ANGLE_DEG 60.0
@@ -61,7 +58,7 @@ static double angle_of(moments m)
 bool cli_tune_line_is_kept(const cli_tuning *t, double *angle_deg)
 {
     const double angle = angle_of(moments_of(t));
-    *angle_deg = fabs(angle) < LEAST_ANGLE_DEG ? 0.0 : angle;
+    *angle_deg = fabs(angle) < CLI_TUNE_LEAST_ANGLE_DEG ? 0.0 : angle;
     return cli_tune_currents_are_in_line(t) && fabs(angle) <= MOST_ANGLE_DEG;
 }
 

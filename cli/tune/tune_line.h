@@ -5,6 +5,9 @@
 
 #include "cli/tune/tune_steps.h"
 
+/* An angle of currents that a drive means to have at 0, and of sensors that differ. */
+#define CLI_TUNE_LEAST_ANGLE_DEG 1.0
+
 /* Whether all currents in the rotor frame lie on one line, as with i_d at 0: the torque shows one sum of the
  * back-EMF along i_d and along i_q then, in which its orders 6k − 1 and 6k + 1 are one order 6k. */
 bool cli_tune_currents_are_in_line(const cli_tuning *tune);

@@ -272,9 +272,6 @@ static bool inductances_are_declared(const hci_machine_data *m)
     return m->inductance_count > 0 || (m->inductance_d_H > 0.0 && m->inductance_q_H > 0.0);
 }
 
-/* An angle of currents that a drive means to have at 0, and of sensors that differ. */
-#define LEAST_ANGLE_DEG 1.0
-
 /* Where all currents lie on one line or curve, what an effect that acts with the current makes off that line,
  * or a saliency that nobody declared, is supposed and not measured: the table keeps to it. */
 static void keep_angle(cli_tuning *t, hci_solve_options *o, char text[32], cli_tune_line *c)
@@ -286,7 +283,7 @@ static void keep_angle(cli_tuning *t, hci_solve_options *o, char text[32], cli_t
     cli_tune_add_option(c, t->keeps_angle ? "method" : "auto", t->keeps_angle ? "pointwise" : NULL);
     if (!t->keeps_angle) return;
     angle_deg += read_too_much_deg(&t->found.list);
-    if (fabs(angle_deg) < LEAST_ANGLE_DEG) angle_deg = 0.0;
+    if (fabs(angle_deg) < CLI_TUNE_LEAST_ANGLE_DEG) angle_deg = 0.0;
     snprintf(text, 32, "%.3g", angle_deg);
     sscanf(text, "%lf", &angle_deg);
     t->current_angle_rad = angle_deg * HCI_PI / 180.0;

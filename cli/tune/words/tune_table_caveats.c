@@ -81,8 +81,7 @@ static double common_gain(const cli_tuning *t)
 
 static bool is_offset(const hci_effect *e)
 {
-    return e->type->correction && e->type->correction->after &&
-           strstr(e->type->correction->after, " A from i_");
+    return e->type->sum_by_value && strcmp(e->type->parameter[0].unit, "A") == 0;
 }
 
 /* Torque of order 1 that the offsets of the phases make, N·m, peak. */

@@ -10,31 +10,50 @@
 
 /* ---- single orders ---- */
 
-/* The solution about the declared values, from which columns leave: at the present values steps are near 0.
- */
+/* The moments as they are about the declared values, to which what leaves goes back. */
+static void moments_shift(const hci_candidates *model, const hci_normal_equations *normal, double *moment)
+{
+    for (size_t k = 0, c = 0; k < model->count; ++k)
+        for (size_t j = 0; model->candidate[k].in && j < model->candidate[k].count; ++j, ++c)
+            for (size_t i = 0; i < normal->n; ++i)
+                moment[i] +=
+                    normal->gram[i * normal->n + c] * hci_candidate_departure(&model->candidate[k], j);
+}
+
+/* The solution with all columns, but for those that depend on others. */
 static bool solve_all(hci_sweep *sweep, const hci_candidates *model, const hci_normal_equations *normal)
 {
     if (!hci_sweep_start(sweep, normal)) return false;
+    moments_shift(model, normal, sweep->b);
     for (size_t c = 0; c < normal->n; ++c)
         hci_sweep_in(sweep, c);
-    for (size_t k = 0, c = 0; k < model->count; ++k)
-        for (size_t j = 0; model->candidate[k].in && j < model->candidate[k].count; ++j, ++c)
-            sweep->b[c] += hci_candidate_departure(&model->candidate[k], j);
     return true;
+}
+
+/* Candidates that leave one after the other. */
+typedef struct {
+    size_t *index, count;
+} leaving_list;
+
+static bool has_left(const leaving_list *l, size_t k)
+{
+    for (size_t j = 0; j < l->count; ++j)
+        if (l->index[j] == k) return true;
+    return false;
 }
 
 /* The one whose leaving would lower the score most, of those that have not left, and its first column; the
  * number of candidates where none would. */
-static size_t superfluous(const hci_candidates *model, const hci_sweep *sweep, double rows, size_t *column)
+static size_t superfluous(const hci_candidates *model, const hci_sweep *sweep, double rows,
+                          const leaving_list *left, size_t *column)
 {
     size_t worst = model->count;
     double least = 0.0;
     for (size_t k = 0, c = 0; k < model->count; ++k) {
         const hci_candidate *x = &model->candidate[k];
         if (!x->in) continue;
-        const double gain =
-            sweep->in[c] ? hci_sweep_reduction(sweep, c, x->count) - hci_candidate_cost(x, rows) : 0.0;
-        if (gain < least) {
+        const double gain = hci_sweep_reduction(sweep, c, x->count) - hci_candidate_cost(x, rows);
+        if (gain < least && !has_left(left, k)) {
             least = gain;
             worst = k;
             *column = c;
@@ -44,21 +63,19 @@ static size_t superfluous(const hci_candidates *model, const hci_sweep *sweep, d
     return worst;
 }
 
-/* Those that are superfluous one after the other, leave[order] in the order in which they would leave. */
-static hci_status superfluous_find(hci_search *s, const hci_candidates *model, size_t *leave, size_t *count,
+static hci_status superfluous_find(hci_search *s, const hci_candidates *model, leaving_list *leave,
                                    hci_note *note)
 {
     hci_normal_equations normal;
     hci_sweep sweep = {0};
     size_t column = 0;
     hci_status status = hci_regression_normal(s->regression, model, false, &normal, note);
-    *count = 0;
     if (status) return status;
     if (!solve_all(&sweep, model, &normal)) status = hci_note_memory(note, NULL, "the search of effects");
-    for (size_t k; !status && (k = superfluous(model, &sweep, normal.rows, &column)) < model->count;) {
+    for (size_t k; !status && (k = superfluous(model, &sweep, normal.rows, leave, &column)) < model->count;) {
         for (size_t j = 0; j < model->candidate[k].count; ++j)
             hci_sweep_out(&sweep, column + j);
-        leave[(*count)++] = k;
+        leave->index[leave->count++] = k;
     }
     hci_sweep_release(&sweep);
     hci_normal_equations_release(&normal);
@@ -85,13 +102,13 @@ static hci_status leave_try(hci_search *s, hci_fitted_model *model, const size_t
 /* All that the equations call superfluous, or the one that is most. left: out, whether any has left. */
 static hci_status superfluous_leave(hci_search *s, hci_fitted_model *model, bool *left, hci_note *note)
 {
-    size_t count = 0, *leave = hci_memory_new(model->candidates.count + 1, sizeof *leave);
+    leaving_list leave = {hci_memory_new(model->candidates.count + 1, sizeof *leave.index), 0};
     *left = false;
-    if (!leave) return hci_note_memory(note, NULL, "the search of effects");
-    hci_status status = superfluous_find(s, &model->candidates, leave, &count, note);
-    if (!status && count > 1) status = leave_try(s, model, leave, count, left, note);
-    if (!status && !*left && count > 0) status = leave_try(s, model, leave, 1, left, note);
-    hci_memory_free(leave);
+    if (!leave.index) return hci_note_memory(note, NULL, "the search of effects");
+    hci_status status = superfluous_find(s, &model->candidates, &leave, note);
+    if (!status && leave.count > 1) status = leave_try(s, model, leave.index, leave.count, left, note);
+    if (!status && !*left && leave.count > 0) status = leave_try(s, model, leave.index, 1, left, note);
+    hci_memory_free(leave.index);
     return status;
 }
 

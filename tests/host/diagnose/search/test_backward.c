@@ -50,6 +50,20 @@ static void test_orders_that_are_not_there_leave(void)
     TEST_ASSERT_DOUBLE_WITHIN(3.0 * NOISE_NM / sqrt(2.0 * SAMPLES), 0.05, sine->value);
 }
 
+/* Of two terms that are one the second says nothing, whatever value it has been given. */
+static void test_a_term_that_depends_on_another_leaves(void)
+{
+    record_small(0.05, 0.0, 0.0);
+    model_add("cogging", "sine", NULL, 6.0);
+    model_add("cogging", "sine", NULL, 6.0);
+    model_fit();
+    TEST_ASSERT_EQUAL_UINT64(2, hci_candidates_terms_in(&model.candidates));
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_prune(&search, &model, &note));
+    TEST_ASSERT_EQUAL_UINT64(1, hci_candidates_terms_in(&model.candidates));
+    const hci_effect_term *sine = term_in(&model.candidates, "cogging", "sine", 6.0);
+    TEST_ASSERT_DOUBLE_WITHIN(3.0 * NOISE_NM / sqrt(2.0 * SAMPLES), 0.05, sine->value);
+}
+
 static void test_orders_that_are_there_stay(void)
 {
     record_small(0.05, 0.3, 0.0);
@@ -198,6 +212,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_orders_that_are_not_there_leave);
+    RUN_TEST(test_a_term_that_depends_on_another_leaves);
     RUN_TEST(test_orders_that_are_there_stay);
     RUN_TEST(test_a_price_decides);
     RUN_TEST(test_powers_beside_another_brake_leave);
