@@ -23,6 +23,7 @@
 #define HELPS         1.05 /* of the error held out, without an effect that lowers it */
 #define RISES         1.02 /* of an error, that is no rounding */
 #define STAYS         0.95 /* share of an error that has not fallen */
+#define MADE          2.0  /* of a ripple held out, over that of the declared machine: effects make it */
 #define SMALL         0.05 /* share of what all effects explain, that a small one explains of it at most */
 #define BY_CHANCE     20.0 /* χ² by which runs held out are described worse, all of them together */
 
@@ -90,6 +91,14 @@ static bool is_contradicted(const test_errors *x, bool kept)
     const double share = kept ? STAYS : HARDLY_BETTER;
     return (!is_described(x) && x->after > share * share * x->before) ||
            is_hardly_less(x, kept ? STAYS * STAYS : HARDLY_BETTER);
+}
+
+/* Whether the ripple held out, that of currents and speeds beyond those that were fitted too, is a multiple
+ * of what the declared machine leaves: no effect that is there makes a ripple where there is none. */
+static bool makes_ripple(const hci_diagnosis *d, double resolution_Nm)
+{
+    const double allowed_Nm = fmax(RIPPLE * d->holdout_noise_Nm, COARSE * resolution_Nm);
+    return d->holdout_ripple_after_Nm > fmax(allowed_Nm, MADE * d->holdout_ripple_before_Nm);
 }
 
 /* Whether the mean error of a run that was fitted stands beside its noise: a mean is known much better than a
@@ -176,7 +185,8 @@ hci_held_out_result hci_held_out_judge(const hci_dataset *b, const hci_runs *run
                                        double resolution_Nm)
 {
     const test_errors x = test_errors_of(b, runs, d, resolution_Nm);
-    if (is_contradicted(&x, d->contradicted)) return HCI_HELD_OUT_CONTRADICTED;
+    if (is_contradicted(&x, d->contradicted) || makes_ripple(d, resolution_Nm))
+        return HCI_HELD_OUT_CONTRADICTED;
     return is_partial(&x, d, resolution_Nm) || rises_at_all(b, runs, d) ? HCI_HELD_OUT_PARTLY
                                                                         : HCI_HELD_OUT_DESCRIBED;
 }
@@ -205,8 +215,26 @@ bool hci_held_out_rises_both(const hci_dataset *b, const hci_runs *runs, const h
 
 /* ---- which effects help ---- */
 
-/* Mean square over the runs held out within what was fitted, of the residual of a model, N²·m². residual_Nm:
- * [samples]. */
+/* Samples of the runs held out within what was fitted. */
+static double samples_of(const hci_dataset *b, const hci_runs *runs)
+{
+    double count = 0.0;
+    for (size_t k = 0; k < b->samples.segment_count; ++k) {
+        const hci_segment *s = &b->samples.segment[k];
+        if (runs->role[s->run] != HCI_ROLE_FIT && is_within(&b->samples.statistics[s->run], b))
+            count += (double)s->count;
+    }
+    return count;
+}
+
+/* Whether a run held out takes part: within what was fitted, or where none is. */
+static bool takes_part(const hci_dataset *b, const hci_runs *runs, size_t run)
+{
+    return runs->role[run] != HCI_ROLE_FIT &&
+           (is_within(&b->samples.statistics[run], b) || !(samples_of(b, runs) > 0.0));
+}
+
+/* Mean square over these runs, of the residual of a model, N²·m². residual_Nm: [samples]. */
 static hci_status square_of(hci_dataset *b, const hci_runs *runs, const hci_candidates *candidates,
                             double *residual_Nm, double *square, hci_note *note)
 {
@@ -219,7 +247,7 @@ static hci_status square_of(hci_dataset *b, const hci_runs *runs, const hci_cand
     b->regression.use = b->fit;
     for (size_t k = 0; k < b->samples.segment_count && !status; ++k) {
         const hci_segment *s = &b->samples.segment[k];
-        if (runs->role[s->run] == HCI_ROLE_FIT || !is_within(&b->samples.statistics[s->run], b)) continue;
+        if (!takes_part(b, runs, s->run)) continue;
         for (size_t j = s->first; j < s->first + s->count; ++j, count += 1.0)
             sum += residual_Nm[j] * residual_Nm[j];
     }
@@ -264,18 +292,6 @@ hci_status hci_held_out_keep(hci_dataset *b, const hci_runs *runs, hci_candidate
 }
 
 /* ---- which effects mislead ---- */
-
-/* Samples of the runs held out within what was fitted. */
-static double samples_of(const hci_dataset *b, const hci_runs *runs)
-{
-    double count = 0.0;
-    for (size_t k = 0; k < b->samples.segment_count; ++k) {
-        const hci_segment *s = &b->samples.segment[k];
-        if (runs->role[s->run] != HCI_ROLE_FIT && is_within(&b->samples.statistics[s->run], b))
-            count += (double)s->count;
-    }
-    return count;
-}
 
 /* The same mean square without one type, all others fitted anew. asked: out, whether the runs that were
  * fitted ask for it; may be NULL. */

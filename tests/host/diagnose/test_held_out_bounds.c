@@ -245,6 +245,29 @@ static void test_judgements(void)
     TEST_ASSERT_FALSE(hci_held_out_rises(&b, &runs, &d, 0.26));
 }
 
+/* Effects that make a ripple beyond what was fitted: more than twice what it was, and more than noise. */
+static void test_what_makes_a_ripple(void)
+{
+    d.holdout_ripple_before_Nm = 0.11, d.holdout_ripple_after_Nm = 0.221;
+    TEST_ASSERT_EQUAL_INT(HCI_HELD_OUT_CONTRADICTED, hci_held_out_judge(&b, &runs, &d, 1e-3));
+    TEST_ASSERT_EQUAL_INT(HCI_HELD_OUT_DESCRIBED, hci_held_out_judge(&b, &runs, &d, 0.056));
+    d.holdout_ripple_after_Nm = 0.219;
+    TEST_ASSERT_EQUAL_INT(HCI_HELD_OUT_PARTLY, hci_held_out_judge(&b, &runs, &d, 1e-3));
+    d.holdout_ripple_before_Nm = 0.05, d.holdout_ripple_after_Nm = 0.199;
+    TEST_ASSERT_EQUAL_INT(HCI_HELD_OUT_DESCRIBED, hci_held_out_judge(&b, &runs, &d, 1e-3));
+}
+
+/* Where no run held out is within what was fitted, those beyond tell which effects help. */
+static void test_which_runs_take_part(void)
+{
+    statistics[3].current_A = 9.0;
+    TEST_ASSERT_TRUE(takes_part(&b, &runs, 2));
+    TEST_ASSERT_FALSE(takes_part(&b, &runs, 3) || takes_part(&b, &runs, 0));
+    statistics[2].pace_rad_per_s = 200.0;
+    TEST_ASSERT_TRUE(takes_part(&b, &runs, 2) && takes_part(&b, &runs, 3));
+    TEST_ASSERT_FALSE(takes_part(&b, &runs, 0));
+}
+
 static void test_what_an_effect_has_to_lower(void)
 {
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 4.0, helps(hci_effect_type_find("saturation")));
@@ -343,6 +366,8 @@ int main(void)
     RUN_TEST(test_what_is_partial);
     RUN_TEST(test_what_is_much);
     RUN_TEST(test_judgements);
+    RUN_TEST(test_what_makes_a_ripple);
+    RUN_TEST(test_which_runs_take_part);
     RUN_TEST(test_what_an_effect_has_to_lower);
     RUN_TEST(test_what_is_explained);
     RUN_TEST(test_what_is_much_of_runs_held_out);
