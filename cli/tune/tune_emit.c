@@ -57,23 +57,28 @@ bool cli_tune_knows_zero(const cli_tuning *t)
 
 /* Components that a current loop is asked to follow; a few are usual. */
 #define MANY_COMPONENTS 24
+#define THAT_COUNTS     1e-3 /* of the largest */
 
 static void say_components(cli_tuning *t)
 {
     const hci_currents *c = &t->solution.current;
-    double most = 0.0;
+    double largest_A = 0.0, most = 0.0;
+    size_t count = 0;
     for (size_t k = 0; k < c->count; ++k)
+        largest_A = fmax(largest_A, hci_amplitude(c->wave[k].sine, c->wave[k].cosine));
+    for (size_t k = 0; k < c->count; ++k) {
+        if (!(hci_amplitude(c->wave[k].sine, c->wave[k].cosine) > THAT_COUNTS * largest_A)) continue;
         most = fmax(most, c->wave[k].order);
-    hci_tuning_say(
-        &t->tuning, HCI_TUNING_ELSE,
-        "The currents have %zu component%s up to order %.4g of a phase, which is %.3g Hz at 100 rpm (in i_d "
-        "and "
-        "i_q up to one order more)%s.",
-        c->count, c->count == 1 ? "" : "s", most, most * t->corrected.model.pole_pairs * 100.0 / 60.0,
-        c->count > MANY_COMPONENTS
-            ? ": more than most current loops follow; hci-solve solve --auto 6 finds the best six, and "
-              "simulate --table --drive says what the loop makes of them"
-            : "");
+        ++count;
+    }
+    hci_tuning_say(&t->tuning, HCI_TUNING_ELSE,
+                   "The currents have %zu component%s of more than a thousandth of the largest, up to order "
+                   "%.4g of a phase, which is %.3g Hz at 100 rpm (in i_d and i_q up to one order more)%s.",
+                   count, count == 1 ? "" : "s", most, most * t->corrected.model.pole_pairs * 100.0 / 60.0,
+                   count > MANY_COMPONENTS ? ": more than most current loops follow; hci-solve solve --auto "
+                                             "6 finds the best six, and simulate --table --drive says what "
+                                             "the loop makes of them"
+                                           : "");
 }
 
 /* Where the solution is linear in the torque. */

@@ -131,6 +131,12 @@ static const double OF_RATED = 0.9;
 /* A mean torque below this share of what the currents could make is friction or the zero of the sensor. */
 static const double LEAST_LOAD = 0.02;
 
+/* A torque that nobody asked for, in percent of the one that was meant: in what steps it is less, and at
+ * least. */
+enum { STEP_PERCENT = 5, LEAST_PERCENT = 70 };
+
+#define LITTLE_OUTSIDE 0.05 /* of the largest recorded current, by which currents go beyond it */
+
 /* A mean torque, and why it is that. */
 typedef struct {
     double mean_Nm;
@@ -179,32 +185,45 @@ static wanted_torque wanted_of(const cli_tuning *t, const recorded *x, double ra
     return load_Nm > 0.0 ? of_load(x) : without_load(x, rated_Nm, t->reading.run.torque_constant_Nm_per_A);
 }
 
-static void choose_torque(cli_tuning *t)
+/* Whether nobody asked for a torque. */
+static bool is_chosen(const cli_tuning *t)
+{
+    return !t->arguments->given[TUNE_TORQUE] && !(t->declared.rated_torque_Nm > 0.0);
+}
+
+static wanted_torque choose_torque(cli_tuning *t)
 {
     const double rated_Nm = t->declared.rated_current_A * t->reading.run.torque_constant_Nm_per_A;
     const recorded x = recorded_of(t);
     wanted_torque wanted = wanted_of(t, &x, rated_Nm);
-    const bool is_chosen = !t->arguments->given[TUNE_TORQUE] && !(t->declared.rated_torque_Nm > 0.0);
-    if (is_chosen && rated_Nm > 0.0 && wanted.mean_Nm > OF_RATED * rated_Nm)
+    t->has_load = is_measured(&x);
+    if (is_chosen(t) && rated_Nm > 0.0 && wanted.mean_Nm > OF_RATED * rated_Nm)
         wanted = (wanted_torque){
             rounded_down(OF_RATED * rated_Nm),
             "nine tenths of what a sine of the rated current makes; what takes the ripple away heats, too"};
-    t->has_load = is_measured(&x);
-    t->mean_Nm = wanted.mean_Nm;
-    hci_tuning_say(&t->tuning, HCI_TUNING_WANTED, "a torque without ripple of %.4g N·m: %s", t->mean_Nm,
-                   wanted.why);
+    return wanted;
 }
 
-static hci_status read_corrected(cli_tuning *t, const char *machine, hci_note *note)
+static hci_status read_corrected(cli_tuning *t, hci_note *note)
 {
-    char path[CLI_TUNE_PATH];
-    cli_tune_path(t, "target.csv", path);
-    hci_status status = hci_tuning_write_target(t->out, t->mean_Nm, note);
-    if (!status) status = hci_target_read(path, &t->target, note);
-    if (!status) status = hci_machine_read(machine, &t->corrected, note);
+    char machine[CLI_TUNE_PATH];
+    cli_tune_path(t, "diagnose/machine", machine);
+    hci_status status = hci_machine_read(machine, &t->corrected, note);
     if (!status) status = hci_effects_read_machine(machine, &t->found, note);
     if (!status) status = hci_uncertainty_read_machine(machine, &t->uncertainty, note);
     return status;
+}
+
+static hci_status target_set(cli_tuning *t, const wanted_torque *wanted, hci_note *note)
+{
+    char path[CLI_TUNE_PATH];
+    cli_tune_path(t, "target.csv", path);
+    t->mean_Nm = wanted->mean_Nm;
+    hci_tuning_say(&t->tuning, HCI_TUNING_WANTED, "a torque without ripple of %.4g N·m: %s", t->mean_Nm,
+                   wanted->why);
+    const hci_status status = hci_tuning_write_target(t->out, t->mean_Nm, note);
+    hci_target_release(&t->target);
+    return status ? status : hci_target_read(path, &t->target, note);
 }
 
 /* A sine of the rated current heats as much as is allowed: so much rms in each phase. */
@@ -348,22 +367,20 @@ static void note_out_of_reach(cli_tuning *t, hci_note *note)
     t->tuning.solved = HCI_OK;
 }
 
-hci_status cli_tune_solve(cli_tuning *t, hci_note *note)
+/* Solves for a torque; out of reach: the model makes it with no current of the direction that is kept. */
+static hci_status solve_for(cli_tuning *t, const wanted_torque *wanted, hci_note *note)
 {
     char machine[CLI_TUNE_PATH], target[CLI_TUNE_PATH], folder[CLI_TUNE_PATH], rms[32], angle[32];
-    if (!cli_tune_can_solve(t)) return HCI_OK;
     cli_tune_path(t, "diagnose/machine", machine);
     cli_tune_path(t, "target.csv", target);
     cli_tune_path(t, "currents", folder);
-    choose_torque(t);
-    if (!(t->mean_Nm > 0.0) && !t->arguments->given[TUNE_TORQUE]) return HCI_OK;
     cli_tune_line c = {{"solve", machine, "--target", target, "--report", "-o", folder}, 7};
-    hci_status status = read_corrected(t, machine, note);
-    if (status) return status;
     hci_solve_options options = {.target = &t->target,
                                  .effects = &t->found.list,
                                  .uncertainty = &t->uncertainty,
                                  .progress = cli_progress};
+    const hci_status status = target_set(t, wanted, note);
+    if (status) return status;
     take_loop(t, &options, &c);
     keep_angle(t, &options, angle, &c);
     limit_heat(t, &options, rms, &c);
@@ -371,16 +388,96 @@ hci_status cli_tune_solve(cli_tuning *t, hci_note *note)
     cli_tune_note_line(t, &c, true);
     t->tuning.solved = hci_solve(&t->corrected, &options, &t->solution, note);
     cli_progress_end();
-    if (cli_tune_is_coarse(t)) leave_bound_out(&t->solution.expected);
-    const bool is_out_of_reach = t->tuning.solved == HCI_ERROR_NUMERIC && t->keeps_angle;
-    if (t->tuning.solved > HCI_NOT_REACHED && !is_out_of_reach) return t->tuning.solved;
-    if (is_out_of_reach) note_out_of_reach(t, note);
-    status = open_torque(t, note);
-    if (status || is_out_of_reach) return status;
+    return HCI_OK;
+}
+
+static bool is_out_of_reach(const cli_tuning *t)
+{
+    return t->tuning.solved == HCI_ERROR_NUMERIC && t->keeps_angle;
+}
+
+static bool has_higher_powers(const hci_effects *list)
+{
+    for (size_t k = 0; k < list->count; ++k)
+        if (list->effect[k].type->beyond_quadratic) return true;
+    return false;
+}
+
+/* The share of a torque at which its currents, which grow about as it does, lie within what was recorded,
+ * where the iron saturates: beyond that its powers of the current say little. 1: they lie there. */
+static double recorded_share(const cli_tuning *t)
+{
+    const hci_expected_ripple *e = &t->solution.expected;
+    const double most_A = fmax(fmax(fabs(e->measured_id_A.least), fabs(e->measured_id_A.most)),
+                               fmax(fabs(e->measured_iq_A.least), fabs(e->measured_iq_A.most)));
+    if (e->state != HCI_RIPPLE_KNOWN || !has_higher_powers(&t->found.list)) return 1.0;
+    return e->outside_A > LITTLE_OUTSIDE * most_A ? most_A / (most_A + e->outside_A) : 1.0;
+}
+
+/* The percent of the chosen torque to be solved for next; the same: it was the last. */
+static int next_percent(const cli_tuning *t, int percent)
+{
+    const int within = (int)floor(percent * recorded_share(t) / STEP_PERCENT) * STEP_PERCENT;
+    const int next = is_out_of_reach(t) ? percent - STEP_PERCENT : within;
+    return !is_chosen(t) ? percent : next > LEAST_PERCENT ? next : LEAST_PERCENT;
+}
+
+/* Why a torque is less than the chosen one. */
+static void say_less(const wanted_torque *chosen, int percent, bool is_reached, char *why, size_t size)
+{
+    snprintf(why, size, "%d %% of the %.4g N·m that is %s; %s", percent, chosen->mean_Nm, chosen->why,
+             is_reached ? "at more the ripple takes currents to where none were recorded"
+                        : "more the model does not make at every angle, since beyond what was recorded its "
+                          "torque falls with more current");
+}
+
+/* A torque that nobody asked for is less where the model does not reach it or currents of a saturating
+ * machine go beyond what was recorded. */
+static hci_status solve_within_reach(cli_tuning *t, hci_note *note)
+{
+    const wanted_torque chosen = choose_torque(t);
+    char *said = t->tuning.part[HCI_TUNING_WANTED] + strlen(t->tuning.part[HCI_TUNING_WANTED]);
+    char *noted = t->tuning.commands + strlen(t->tuning.commands);
+    char why[512];
+    if (!(chosen.mean_Nm > 0.0) && !t->arguments->given[TUNE_TORQUE]) return HCI_OK;
+    t->has_torque = true;
+    hci_status status = solve_for(t, &chosen, note);
+    int percent = 100;
+    for (int next; !status && (next = next_percent(t, percent)) < percent; percent = next) {
+        say_less(&chosen, next, !is_out_of_reach(t), why, sizeof why);
+        *said = *noted = '\0';
+        *note = (hci_note){{0}};
+        hci_solution_release(&t->solution);
+        status = solve_for(t, &(wanted_torque){rounded(0.01 * next * chosen.mean_Nm), why}, note);
+    }
+    return status;
+}
+
+/* The currents that were solved, for the report. */
+static hci_status write_solved(cli_tuning *t, hci_note *note)
+{
+    char machine[CLI_TUNE_PATH], target[CLI_TUNE_PATH], folder[CLI_TUNE_PATH];
+    cli_tune_path(t, "diagnose/machine", machine);
+    cli_tune_path(t, "target.csv", target);
+    cli_tune_path(t, "currents", folder);
     t->is_solved = true;
     t->solution.expected.if_in_time = cli_tune_hangs_on_lag(t);
     t->tuning.solution = &t->solution;
     return hci_solution_write_with_report(&t->corrected, &t->solution, t->tuning.solved,
                                           &(hci_report_sources){.machine = machine, .target = target}, folder,
                                           note);
+}
+
+hci_status cli_tune_solve(cli_tuning *t, hci_note *note)
+{
+    if (!cli_tune_can_solve(t)) return HCI_OK;
+    hci_status status = read_corrected(t, note);
+    if (!status) status = solve_within_reach(t, note);
+    if (status || !t->has_torque) return status;
+    if (cli_tune_is_coarse(t)) leave_bound_out(&t->solution.expected);
+    const bool without = is_out_of_reach(t);
+    if (t->tuning.solved > HCI_NOT_REACHED && !without) return t->tuning.solved;
+    if (without) note_out_of_reach(t, note);
+    status = open_torque(t, note);
+    return status || without ? status : write_solved(t, note);
 }

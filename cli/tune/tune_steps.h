@@ -105,6 +105,7 @@ typedef struct {
     hci_target target;
     hci_solution solution;
     bool is_solved, is_emitted;
+    bool has_torque;                   /* there is one to be solved for: mean_Nm */
     char out_of_reach[HCI_NOTE_SIZE];  /* why the model has no currents for the torque, in words; "" */
     double cut_Nm;                     /* is_emitted: ripple that the cut to a table makes, peak to peak */
     double open_Nm[HCI_TUNING_POINTS]; /* torque without current */

@@ -33,8 +33,20 @@ check "a back-EMF that was not found" [ "$(grep -c 'back_emf,rejected' untimed/d
 
 by_angle one.csv 4 0.99
 by_angle half.csv 2 0.99
-run 1 tune idle.csv one.csv $motor -o one
-says 'that are not plausible' 'All loads are of one size, at which several effects look alike' 'another load, at half of it or so, tells'
+# The motor at the currents of a folder, at 720 angles: peak to peak.
+true_Nm() {
+    awk -F, 'FNR > 1 { n[++m] = $1; sign[m] = $2 == "pos" ? 1 : $2 == "neg" ? -1 : 0; A[m] = $3; g[m] = $4 }
+        END { turn = 6.283185307179586; low = 1e9; high = -1e9
+            for (k = 0; k < 720; ++k) { e = k * turn / 720; q = 0
+                for (s = 0; s < 3; ++s) for (j = 1; j <= m; ++j) q += 2 / 3 * A[j] * sin(n[j] * e - sign[j] * s * turn / 3 + g[j]) * sin(e - s * turn / 3)
+                T = 0.99 * q * (0.9 + 0.03 * sin(6 * e + 0.4)) + 0.05 * sin(2 * e + 1) + 0.02 * sin(4 * e)
+                if (T < low) low = T
+                if (T > high) high = T }
+            printf "%.5f\n", high - low }' "$1/currents/currents.csv"
+}
+run 1 tune idle.csv one.csv $motor --json -o one
+bound=$(sed -n 's/.*"peak_to_peak_Nm_95":[[:space:]]*\([0-9.e-]*\).*/\1/p' "$work/stdout" | head -1)
+check "one load: true $(true_Nm one), stated ${bound:-none}" awk -v x="$(true_Nm one)" -v b="${bound:-0}" 'BEGIN { exit !(x < b && b < 0.1) }'
 run 1 tune idle.csv one.csv half.csv $motor -o two
 says '^tuned.*falls to at most 0\.00[0-9]* N·m on the machine'
 says '^  On the bench, each steady .diagnose/measure_next.csv.:$' '^    10 turns (forward|back) at [0-9.]* rpm: i_d [-0-9.]* A, i_q [-0-9.]* A$'

@@ -161,9 +161,9 @@ typedef struct {
     const hci_machine *machine; /* declared */
     bool timed;                 /* a run has time and speed */
     bool moving;                /* the shaft turned */
-    bool both_directions;       /* in one run forward, in one backward */
-    bool one_sided;       /* all loads have an i_q of one sign and an i_d beside it, of which none tells what
-                           * of the mean torque keeps its sign with the load */
+    bool loaded_both_ways;      /* under load in one run forward, in one backward */
+    bool one_sided;       /* all loads have an i_q of one sign, of which none tells what of the mean torque
+                           * keeps its sign with the load */
     bool has_temperature; /* of the magnets, which changes */
     bool has_turn;        /* the angle tells where in the mechanical turn the rotor was */
     bool has_neutral;     /* the phases may carry the same current all at once */

@@ -62,11 +62,11 @@ static double modify(const hci_effect *effect, const hci_plant_state *plant, dou
 #define EXPECTED 0.05 /* of the largest torque, at the largest current */
 
 /* In one direction it is an even power of the current like those of reluctance and saturation: both
- * directions tell them apart, since those keep their sign. */
+ * directions under load tell them apart, since those keep their sign. */
 static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
 {
     const double square = survey->current_A * survey->current_A;
-    if (!survey->both_directions || !(square > 0.0)) return;
+    if (!survey->loaded_both_ways || !(square > 0.0)) return;
     hci_effect_propose(to, HYSTERESIS, 1, 0.0, 2.0, EXPECTED * survey->torque_Nm / square);
     if (survey->speeds > 1) hci_effect_propose(to, EDDY, 1, 0.0, 2.0, 0.0);
 }

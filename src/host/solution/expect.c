@@ -1,6 +1,7 @@
 #include "host/solution/expect.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "host/base/memory.h"
 #include "host/machine/expected_ripple.h"
@@ -19,16 +20,29 @@ static size_t samples_of(const hci_solution *s, const hci_effects *allowed)
     return hci_fft_size(fmax(LEAST_PER_TURN, SAMPLES_PER_PERIOD * top) * (double)s->period_turns);
 }
 
-/* One sample of the currents, of the torque and of what is wanted. */
-static void sample_fill(const hci_solution *s, double theta_rad, hci_sample *sample, double *torque_Nm,
-                        double *wanted_Nm)
+/* Adds a harmonic to bins k and n − k of the transform of a real signal, of which it is half each; times i
+ * where that is the imaginary part of a pair. */
+static void bins_add(const hci_harmonic *h, size_t k, size_t n, bool times_i, double *re, double *im)
 {
-    hci_waves_at(s->current.wave, s->current.count, theta_rad, sample->i_abc);
-    *torque_Nm = *wanted_Nm = 0.0;
-    for (size_t k = 0; k < s->order_count; ++k) {
-        *torque_Nm += hci_harmonics_at(&s->order[k].torque_Nm, 1, theta_rad);
-        *wanted_Nm += hci_harmonics_at(&s->order[k].target_Nm, 1, theta_rad);
+    const double cosine = 0.5 * h->cosine, sine = 0.5 * h->sine;
+    const size_t mirrored = (n - k) % n;
+    re[k] += times_i ? sine : cosine;
+    im[k] += times_i ? cosine : -sine;
+    re[mirrored] += times_i ? -sine : cosine;
+    im[mirrored] += times_i ? cosine : sine;
+}
+
+/* The torque and what is wanted, [count] each over the period; none of 0. */
+static void torques_fill(const hci_solution *s, size_t count, double *torque_Nm, double *wanted_Nm)
+{
+    memset(torque_Nm, 0, count * sizeof *torque_Nm);
+    memset(wanted_Nm, 0, count * sizeof *wanted_Nm);
+    for (size_t k = 0; k < s->order_count && count > 0; ++k) {
+        const size_t periods = (size_t)llround(s->order[k].torque_Nm.order * (double)s->period_turns);
+        bins_add(&s->order[k].torque_Nm, periods, count, false, torque_Nm, wanted_Nm);
+        bins_add(&s->order[k].target_Nm, periods, count, true, torque_Nm, wanted_Nm);
     }
+    if (count > 0) hci_fft(torque_Nm, wanted_Nm, count, 1);
 }
 
 static void path_fill(const hci_machine *machine, const hci_solve_options *o, const hci_solution *s,
@@ -40,8 +54,9 @@ static void path_fill(const hci_machine *machine, const hci_solve_options *o, co
         sample[k] = (hci_sample){.theta_m_rad = theta_rad / machine->pole_pairs,
                                  .speed_rad_per_s = o->speed_rad_per_s,
                                  .temperature_C = o->at_temperature ? o->temperature_C : (double)NAN};
-        sample_fill(s, theta_rad, &sample[k], &torque_Nm[k], &torque_Nm[count + k]);
+        hci_waves_at(s->current.wave, s->current.count, theta_rad, sample[k].i_abc);
     }
+    torques_fill(s, count, torque_Nm, torque_Nm + count);
 }
 
 hci_status hci_solution_expect(const hci_machine *machine, const hci_solve_options *options, hci_solution *s,

@@ -13,14 +13,18 @@
 
 #define SHARE      0.1  /* of the ripple of a plain sine */
 #define NEAR       0.01 /* of the allowed torque, at which the search for x ends */
+#define SMALLEST   1e-7 /* of the largest component, below which one is left out */
 #define LEAST_X    1e-4
 #define MOST_X     10.0 /* nothing of a harmonic flows any more */
 #define MOST_STEPS 24
 
-/* The currents of a solution as a loop makes them. wave: of work, [current + back-EMF]. */
+/* The currents of a solution as a loop makes them, but for the smallest. current, wave: of work, [current]
+ * and [current + back-EMF]. */
 typedef struct {
     const hci_task *task;
     const hci_solution *s;
+    hci_wave *current;
+    size_t currents;
     double per_H;  /* 1/(p L): of the back-EMF per mechanical speed; 0: not known */
     double corner; /* R/(L ω_b); 0: R or ω_b is not known */
     hci_wave *wave;
@@ -52,6 +56,17 @@ static hci_wave driven_of(const hci_wave *e, double t, double scale, double corn
     return times(e, share * b, share * a);
 }
 
+/* All that is found at angles alone has thousands of components, of which few are more than rounding. */
+static void take_currents(const hci_currents *c, followed *f)
+{
+    double largest_A = 0.0;
+    for (size_t k = 0; k < c->count; ++k)
+        largest_A = fmax(largest_A, hci_amplitude(c->wave[k].sine, c->wave[k].cosine));
+    for (size_t k = 0; k < c->count; ++k)
+        if (hci_amplitude(c->wave[k].sine, c->wave[k].cosine) > SMALLEST * largest_A)
+            f->current[f->currents++] = c->wave[k];
+}
+
 static bool is_harmonic(const hci_wave *w)
 {
     return w->sequence != 0 && fabs(order_in_rotor(w)) > HCI_ORDER_TOLERANCE;
@@ -59,11 +74,10 @@ static bool is_harmonic(const hci_wave *w)
 
 static void fill(followed *f, double x, bool has_lead)
 {
-    const hci_currents *c = &f->s->current;
     const hci_machine *m = f->task->machine;
     f->count = 0;
-    for (size_t k = 0; k < c->count; ++k)
-        f->wave[f->count++] = followed_of(&c->wave[k], order_in_rotor(&c->wave[k]) * x, has_lead);
+    for (size_t k = 0; k < f->currents; ++k)
+        f->wave[f->count++] = followed_of(&f->current[k], order_in_rotor(&f->current[k]) * x, has_lead);
     for (size_t k = 0; k < m->back_emf_count && f->per_H > 0.0; ++k) {
         const hci_wave *e = &m->back_emf[k];
         if (is_harmonic(e))
@@ -76,7 +90,7 @@ static hci_status miss(followed *f, double x, bool has_lead, double *missed_Nm, 
 {
     hci_torque_spectra torque;
     fill(f, x, has_lead);
-    const hci_wave_view exact = {f->s->current.wave, f->s->current.count}, through = {f->wave, f->count};
+    const hci_wave_view exact = {f->current, f->currents}, through = {f->wave, f->count};
     hci_status status = hci_torque_spectra_make(f->task, through, exact, &torque, note);
     for (size_t k = 0; k < torque.count && !status; ++k) {
         torque.first[k].sine -= torque.second[k].sine;
@@ -165,13 +179,15 @@ hci_status hci_loop_reach_find(const hci_task *task, const hci_machine_data *mac
         loop->allowed_Nm = NAN;
         return HCI_OK;
     }
-    followed f = {task, s, 0.0, 0.0, NULL, 0};
+    followed f = {.task = task, .s = s};
     take_winding(machine, loop->bandwidth_Hz, &f);
     loop->leaves_out_back_emf = !(f.per_H > 0.0) && has_harmonics(task->machine);
-    f.wave = hci_memory_new(s->current.count + task->machine->back_emf_count, sizeof *f.wave);
-    if (!f.wave) return hci_note_memory(note, NULL, "the currents as a loop makes them");
+    f.current = hci_memory_new(2 * s->current.count + task->machine->back_emf_count, sizeof *f.wave);
+    if (!f.current) return hci_note_memory(note, NULL, "the currents as a loop makes them");
+    f.wave = f.current + s->current.count;
+    take_currents(&s->current, &f);
     const hci_status status = find(&f, machine, loop, note);
-    hci_memory_free(f.wave);
+    hci_memory_free(f.current);
     if (!status && s->expected.state == HCI_RIPPLE_KNOWN && isfinite(loop->added_Nm))
         hci_expected_ripple_add_loop(&s->expected, loop->added_Nm, mean_of(s));
     return status;

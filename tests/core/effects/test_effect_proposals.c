@@ -150,7 +150,7 @@ static hci_effect_survey recordings(void)
     return (hci_effect_survey){.machine = &MACHINE,
                                .timed = true,
                                .moving = true,
-                               .both_directions = true,
+                               .loaded_both_ways = true,
                                .has_temperature = true,
                                .has_turn = true,
                                .duration_s = 8.0,
@@ -224,12 +224,12 @@ static void test_what_cannot_be_seen(void)
     s.timed = true;
     s.moving = false;
     proposes("friction", &s, 1, (named[]){{"coulomb", 2, 0.0, 1.0, 0.0}});
-    s.timed = s.both_directions = s.has_temperature = s.has_turn = false;
+    s.timed = s.loaded_both_ways = s.has_temperature = s.has_turn = false;
     proposes("friction", &s, 0, NULL);
     proposes("iron_drag", &s, 0, NULL);
     proposes("magnet_temperature", &s, 0, NULL);
     proposes("position_eccentricity", &s, 0, NULL);
-    s.both_directions = true;
+    s.loaded_both_ways = true;
     s.current_A = 0.0;
     proposes("iron_drag", &s, 0, NULL);
     proposes("position_load", &s, 0, NULL);

@@ -225,6 +225,17 @@ static void test_iron_drag_takes_both_directions(void)
     TEST_ASSERT_EQUAL_INT(HCI_FINDING_REJECTED, found("iron_drag")->verdict);
 }
 
+/* And a load in each of them: one without current the other way round says nothing of it. */
+static void test_iron_drag_takes_loads_in_both_directions(void)
+{
+    for (int k = 0; k < 4; ++k) {
+        const double iq = k < 3 ? 1.0 + 4.0 * k : 0.0;
+        record(450, &(point){k < 3 ? 60.0 : -60.0, iq, 0.0, 8e-4 * iq * iq, 0.0});
+    }
+    diagnose(NULL);
+    TEST_ASSERT_EQUAL_INT(HCI_FINDING_REJECTED, found("iron_drag")->verdict);
+}
+
 /* A resolver whose sine and cosine are not of one size: its angle is wrong twice in an electrical period. */
 static void test_position_harmonics(void)
 {
@@ -422,6 +433,7 @@ int main(void)
     RUN_TEST(test_ripple_beside_friction);
     RUN_TEST(test_iron_drag);
     RUN_TEST(test_iron_drag_takes_both_directions);
+    RUN_TEST(test_iron_drag_takes_loads_in_both_directions);
     RUN_TEST(test_position_harmonics);
     RUN_TEST(test_friction_or_zero_of_the_sensor);
     RUN_TEST(test_the_mean_of_a_shaft_with_a_load_is_not_used);

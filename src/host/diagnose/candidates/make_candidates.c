@@ -21,7 +21,6 @@ enum {
 
 #define SIMILAR    0.15 /* speeds that differ by less, as a share, are the same */
 #define LEAST_LOAD 0.1  /* of the largest current, in a run with a load; and of its own, along q */
-#define BESIDE     0.05 /* of the current, that an i_d is more than noise and errors of the angle */
 #define EVEN_LOAD  0.7  /* of the current, that its mean is in a run with one load all along */
 #define AROUND     1.2  /* standard deviations above a mean speed: at 0.85 of a ramp from 0 */
 
@@ -182,21 +181,39 @@ static bool may_have(const hci_run_statistics *f, double sign)
     return varies || sign * f->mean_iq_A > LEAST_LOAD * f->current_A;
 }
 
+static double largest_current_A(const hci_binned_samples *samples, const bool *use)
+{
+    double most_A = 0.0;
+    for (size_t r = 0; r < samples->run_count; ++r)
+        most_A = fmax(most_A, use[r] ? samples->statistics[r].current_A : 0.0);
+    return most_A;
+}
+
 bool hci_candidates_are_one_sided(const hci_binned_samples *samples, const bool *use)
 {
-    double most_A = 0.0, along_d_A = 0.0;
+    const double most_A = largest_current_A(samples, use);
     bool drives = false, brakes = false;
-    for (size_t r = 0; r < samples->run_count; ++r) {
-        most_A = fmax(most_A, use[r] ? samples->statistics[r].current_A : 0.0);
-        along_d_A = fmax(along_d_A, use[r] ? fabs(samples->statistics[r].mean_id_A) : 0.0);
-    }
     for (size_t r = 0; r < samples->run_count; ++r) {
         const hci_run_statistics *f = &samples->statistics[r];
         const bool is_load = use[r] && f->current_A > LEAST_LOAD * most_A;
         drives = drives || (is_load && may_have(f, 1.0));
         brakes = brakes || (is_load && may_have(f, -1.0));
     }
-    return along_d_A > BESIDE * most_A && !(drives && brakes);
+    return !(drives && brakes);
+}
+
+/* Whether the shaft turned forward and back under load. */
+static bool are_loaded_both_ways(const hci_binned_samples *samples, const bool *use)
+{
+    const double most_A = largest_current_A(samples, use);
+    bool ahead = false, back = false;
+    for (size_t r = 0; r < samples->run_count; ++r) {
+        const hci_run_statistics *f = &samples->statistics[r];
+        if (!use[r] || !(f->current_A > LEAST_LOAD * most_A)) continue;
+        ahead = ahead || f->both_ways || f->mean_speed_rad_per_s > 0.0;
+        back = back || f->both_ways || f->mean_speed_rad_per_s < 0.0;
+    }
+    return ahead && back;
 }
 
 static hci_effect_survey survey_of(const hci_candidates_source *s)
@@ -205,13 +222,10 @@ static hci_effect_survey survey_of(const hci_candidates_source *s)
                            .richness = s->richness,
                            .speeds = speeds_of(s),
                            .has_neutral = s->has_neutral};
-    bool ahead = false, back = false;
     for (size_t r = 0; r < s->samples->run_count; ++r) {
         const hci_run_statistics *f = &s->samples->statistics[r];
         x.timed = x.timed || (s->runs[r].time_s && s->runs[r].speed_rad_per_s);
         x.moving = x.moving || f->mean_speed_rad_per_s != 0.0;
-        ahead = ahead || (s->use[r] && (f->both_ways || f->mean_speed_rad_per_s > 0.0));
-        back = back || (s->use[r] && (f->both_ways || f->mean_speed_rad_per_s < 0.0));
         x.has_turn = x.has_turn || (s->runs[r].turn_known && !is_part_of_turn(s, r));
         x.creeps = x.creeps || (s->use[r] && f->creeps && s->runs[r].torque_source == HCI_TORQUE_MEASURED);
         if (s->runs[r].time_s && s->runs[r].count > 0)
@@ -225,7 +239,7 @@ static hci_effect_survey survey_of(const hci_candidates_source *s)
     }
     x.has_temperature = warms(s);
     x.one_sided = s->symmetric && hci_candidates_are_one_sided(s->samples, s->use);
-    x.both_directions = ahead && back;
+    x.loaded_both_ways = are_loaded_both_ways(s->samples, s->use);
     x.reference_current_A = s->reference_current_A > 0.0 ? s->reference_current_A : x.current_A;
     return x;
 }

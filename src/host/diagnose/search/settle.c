@@ -5,10 +5,13 @@
 
 #include "host/base/memory.h"
 #include "host/diagnose/candidates/empirical_term.h"
+#include "host/diagnose/fit/cancelling.h"
 #include "host/diagnose/search/backward.h"
 #include "host/diagnose/search/belief.h"
 #include "host/diagnose/search/coenergy.h"
+#include "host/diagnose/search/forward.h"
 #include "host/diagnose/search/stability.h"
+#include "host/diagnose/search/unlike_iron.h"
 
 #define EXCESS       0.1  /* variance over that of the noise that tells of something that does not repeat */
 #define CLUMPS       1.35 /* the same of how uneven the errors are; noise makes 1 … */
@@ -425,6 +428,103 @@ static hci_status single_try(hci_search *s, hci_fitted_model *model, bool *unpre
     return status ? status : hci_search_renew(s, model, note);
 }
 
+static bool breaks_mirror(const hci_search *s, const hci_candidates *model)
+{
+    for (size_t k = 0; k < model->count; ++k)
+        if (hci_mirror_is_broken(s->regression, model, k)) return true;
+    return false;
+}
+
+/* And where the means of the whole keep their sign with the load, as no iron's do, and those of the single
+ * terms turn it. */
+static hci_status mirror_ask(hci_search *s, hci_fitted_model *model, hci_note *note)
+{
+    if (!s->whole_coenergy || hci_candidates_types_in(&s->single.candidates) == 0) return HCI_OK;
+    if (!breaks_mirror(s, &model->candidates) || breaks_mirror(s, &s->single.candidates)) return HCI_OK;
+    s->whole_coenergy = false;
+    hci_fitted_model_replace(model, &s->single);
+    const hci_status status = hci_search_renew(s, model, note);
+    return status ? status : hci_search_drop_unsure(s, model, note);
+}
+
+/* ---- orders that cancel ---- */
+
+/* Takes out the one of a type without which the others describe the recordings best. */
+static hci_status order_leaves(hci_search *s, hci_fitted_model *model, const hci_effect_type *type,
+                               hci_note *note)
+{
+    hci_fitted_model best = {0};
+    hci_status status = HCI_OK;
+    best.fit.score = INFINITY;
+    for (size_t k = 0; k < model->candidates.count && !status; ++k) {
+        hci_fitted_model without = {0};
+        if (!model->candidates.candidate[k].in || model->candidates.candidate[k].type != type) continue;
+        status = hci_fitted_model_copy(model, &without, note);
+        if (!status) without.candidates.candidate[k].in = false;
+        if (!status)
+            status = hci_regression_fit_below(s->regression, &without.candidates, best.fit.score,
+                                              &without.fit, note);
+        if (!status && without.fit.score < best.fit.score) hci_fitted_model_replace(&best, &without);
+        hci_fitted_model_release(&without);
+    }
+    if (!status && best.candidates.candidate) hci_fitted_model_replace(model, &best);
+    hci_fitted_model_release(&best);
+    return status;
+}
+
+static size_t orders_of(const hci_candidates *model, const hci_effect_type *type)
+{
+    size_t count = 0;
+    for (size_t k = 0; k < model->count; ++k)
+        count += model->candidate[k].in && model->candidate[k].type == type;
+    return count;
+}
+
+/* Takes orders out until none cancel; type: in and out, NULL where that is so. */
+static hci_status orders_leave(hci_search *s, hci_fitted_model *model, const hci_effect_type **type,
+                               hci_note *note)
+{
+    hci_status status = HCI_OK;
+    while (!status && *type && orders_of(&model->candidates, *type) > 1) {
+        status = order_leaves(s, model, *type, note);
+        if (!status) status = hci_cancelling_find(s->regression, &model->candidates, type, note);
+    }
+    return status;
+}
+
+/* What they were there for beside that is another effect. */
+static hci_status other_comes(hci_search *s, hci_fitted_model *model, const hci_effect_type **type,
+                              bool *is_all, hci_note *note)
+{
+    bool added = false;
+    hci_status status = hci_search_is_noise(s, &model->candidates, is_all, note);
+    if (status || *is_all || *type) return status;
+    status = hci_search_renew(s, model, note);
+    if (!status) status = hci_search_forward(s, model, &added, note);
+    if (!status) status = hci_cancelling_find(s->regression, &model->candidates, type, note);
+    if (!status) status = hci_search_is_noise(s, &model->candidates, is_all, note);
+    return status;
+}
+
+/* Where two orders of an effect make the same torque at the currents that flowed, one stands for both, if
+ * nothing but noise is left then. */
+static hci_status cancelling_ask(hci_search *s, hci_fitted_model *model, hci_note *note)
+{
+    hci_fitted_model fewer = {0};
+    const hci_effect_type *type = NULL;
+    bool is_all = false;
+    hci_status status = hci_cancelling_find(s->regression, &model->candidates, &type, note);
+    if (status || !type) return status;
+    status = hci_fitted_model_copy(model, &fewer, note);
+    if (!status) status = orders_leave(s, &fewer, &type, note);
+    if (!status) status = other_comes(s, &fewer, &type, &is_all, note);
+    if (!status && is_all && !type) hci_fitted_model_replace(model, &fewer);
+    hci_fitted_model_release(&fewer);
+    return status ? status : hci_search_renew(s, model, note);
+}
+
+/* ---- what runs left out say ---- */
+
 /* A few numbers for as many runs describe the mean of each whatever it is, such as a zero that is
  * another one each time: effects that explain the runs but not those left out are none. unpredicted: out,
  * they are some, and something else is missing. */
@@ -490,7 +590,9 @@ static hci_status means_ask(hci_search *s, hci_attribution *a, hci_note *note)
 hci_status hci_search_settle(hci_search *s, hci_attribution *a, hci_note *note)
 {
     bool unpredicted = false;
-    hci_status status = means_judge(s, a, &unpredicted, note);
+    hci_status status = mirror_ask(s, &a->model, note);
+    if (!status) status = means_judge(s, a, &unpredicted, note);
+    if (!status && !a->means_open) status = cancelling_ask(s, &a->model, note);
     if (!status && !a->means_open) status = hci_search_keep_brakes(s, &a->model, note);
     if (!status && !a->means_open) status = settle(s, unpredicted, a, note);
     if (!status) status = hci_search_renew(s, &a->model, note);

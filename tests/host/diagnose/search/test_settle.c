@@ -124,6 +124,53 @@ static void test_means_that_no_law_predicts(void)
     leaves_all_to_the_means();
 }
 
+/* Four loads of one sign, with a mean that falls with the current, and a whole co-energy of which the mean
+ * is one that keeps its sign: single: the model of single terms that was kept beside it. */
+static hci_candidates settled_beside(const char *single)
+{
+    hci_attribution a = {.types = 0};
+    for (size_t r = 0; r < 4; ++r) {
+        const double iq_A = 2.0 + 2.0 * (double)r;
+        record(450, &(point){60.0, iq_A, 0.0, 4e-4 * pow(iq_A, 3.0), 0.0});
+        for (size_t j = 0; j < 450; ++j) /* as of an angle that is off */
+            rec_phases(0.02 * iq_A, iq_A, P * run[r].theta_m_rad[j], run[r].i_A + 3 * j);
+    }
+    search_start();
+    search.whole_coenergy = true;
+    model.candidates.reference_current_A = 8.0;
+    model_add("saturation", single, NULL, 0.0);
+    model_fit();
+    search.single = model;
+    memset(&model, 0, sizeof model);
+    model.candidates.reference_current_A = 8.0;
+    model_add("saturation", "d1q3_cosine", NULL, 0.0);
+    model_add("reluctance", "qq_cosine", NULL, 6.0);
+    model_fit();
+    a.model = model;
+    memset(&model, 0, sizeof model);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_settle(&search, &a, &note));
+    const hci_candidates found = a.model.candidates;
+    a.model.candidates = (hci_candidates){0};
+    hci_attribution_release(&a);
+    hci_fitted_model_release(&search.single);
+    return found;
+}
+
+/* The single terms take its place where their mean turns its sign, and else nothing does. */
+static void test_a_whole_that_keeps_its_sign_gives_way(void)
+{
+    hci_candidates found = settled_beside("d1q2_cosine");
+    TEST_ASSERT_NOT_NULL(term_in(&found, "saturation", "d1q2_cosine", 0.0));
+    TEST_ASSERT_NULL(term_in(&found, "saturation", "d1q3_cosine", 0.0));
+    TEST_ASSERT_FALSE(search.whole_coenergy);
+    hci_candidates_release(&found);
+    tearDown();
+    setUp();
+    found = settled_beside("d0q3_cosine");
+    TEST_ASSERT_NULL(term_in(&found, "saturation", "d0q3_cosine", 0.0));
+    hci_candidates_release(&found);
+}
+
 /* Runs of another torque per ampere each, as of magnets whose temperature nobody wrote down. */
 static void record_heat(void)
 {
@@ -174,5 +221,6 @@ int main(void)
     RUN_TEST(test_what_a_filter_leaves_is_no_noise);
     RUN_TEST(test_means_of_noise_are_known);
     RUN_TEST(test_means_that_no_law_predicts);
+    RUN_TEST(test_a_whole_that_keeps_its_sign_gives_way);
     return UNITY_END();
 }
