@@ -227,6 +227,13 @@ static void show_zero(const hci_check *c)
                 off, error);
 }
 
+static void show_saliency(const hci_check *c)
+{
+    char words[512];
+    if (c->verdict != HCI_CHECK_SLIPS && *hci_check_saliency_words(c, words, sizeof words))
+        cli_say("  saliency     %s; inductance_d and inductance_q of machine.csv declare it\n", words);
+}
+
 static void show(const hci_check *c, bool verbose)
 {
     show_verdict(c);
@@ -246,6 +253,7 @@ static void show(const hci_check *c, bool verbose)
         show_counts(c);
     }
     show_zero(c);
+    show_saliency(c);
     show_untold(c, verbose);
 }
 

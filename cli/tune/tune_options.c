@@ -20,6 +20,10 @@ const cli_option cli_tune_options[] = {
     [TUNE_SLOTS] = {"slots", 0, CLI_TEXT, "N", .help = "of the stator; what check holds the cogging against"},
     [TUNE_RESISTANCE] = OF_SHEET("resistance", "OHM", "of the winding"),
     [TUNE_RESISTANCE_OF] = OF_SHEET("resistance-of", "WORD", "... of: phase (default), line"),
+    [TUNE_INDUCTANCE_D] =
+        OF_SHEET("inductance-d", "H", "along the magnets, of a phase: half of that between two terminals"),
+    [TUNE_INDUCTANCE_Q] =
+        OF_SHEET("inductance-q", "H", "... across the magnets: with both, the reluctance torque is declared"),
     [TUNE_INERTIA] = {"inertia", 0, CLI_TEXT, "KGM2",
                       .help = "of the rotor with what turns with it; a log of a free shaft needs it"},
     [TUNE_CURRENT] = {"rated-current", 0, CLI_TEXT, "A",

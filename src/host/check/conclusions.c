@@ -1,6 +1,7 @@
 #include "host/check/conclusions.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "host/check/error_place.h"
@@ -278,6 +279,52 @@ static void conclude_zero(const check_posterior *p, hci_check *check)
     check->drive_zero_reach_rad = zero.is_of_drive ? error_rad : (double)NAN;
 }
 
+/* Of the magnets' torque: a reluctance torque that is more than their tolerances and what currents beside q
+ * make of noise. */
+#define SALIENT 0.15
+
+/* A reading as probable as this is one of those that would do. */
+#define LEAST_DECLARED 0.05
+
+/* A scale that is known so well is told from every slip. */
+#define SCALE_TOLD 0.09
+
+static void conclude_saliency(const check_posterior *p, hci_check *check)
+{
+    const check_interpretation declared = hci_check_as_declared();
+    const check_saliency x = hci_check_saliency(p->data, &declared);
+    const bool is_asked_for = x.share > SALIENT && check->probability_as_declared > LEAST_DECLARED;
+    check->saliency_H = is_asked_for ? x.small_H : (double)NAN;
+    check->saliency_at_load_H = is_asked_for ? x.large_H : (double)NAN;
+    check->scale_left_open = is_asked_for ? x.left_open : (double)NAN;
+}
+
+const char *hci_check_saliency_words(const hci_check *check, char *text, size_t size)
+{
+    *text = '\0';
+    if (isnan(check->saliency_H)) return text;
+    const int used =
+        snprintf(text, size,
+                 "a reluctance torque that the machine does not declare is in the torques, as of "
+                 "L_q - L_d = %.2g H (%.2g H at the largest i_q)",
+                 check->saliency_H, check->saliency_at_load_H);
+    if (used < 0 || (size_t)used >= size) return text;
+    if (check->verdict != HCI_CHECK_CONSISTENT)
+        snprintf(text + used, size - (size_t)used, ", if nothing is read wrongly");
+    else if (check->scale_left_open < SCALE_TOLD)
+        snprintf(text + used, size - (size_t)used,
+                 "; beside it the torque per ampere is that of the tables within %.2g %%, and another scale "
+                 "is none that is needed",
+                 100.0 * check->scale_left_open);
+    else
+        snprintf(
+            text + used, size - (size_t)used,
+            ", or another scale of back-EMF, currents or torque (%.0f %% of it are left open): a load at "
+            "another i_d, best 0, or voltages of the open machine, tell them apart",
+            100.0 * check->scale_left_open);
+    return text;
+}
+
 void hci_check_conclude(const check_posterior *p, hci_check *check)
 {
     check->probability_as_declared = p->list[0].probability;
@@ -288,4 +335,5 @@ void hci_check_conclude(const check_posterior *p, hci_check *check)
     hci_check_own_findings(p, check);
     check->verdict = verdict_of(check);
     conclude_zero(p, check);
+    conclude_saliency(p, check);
 }

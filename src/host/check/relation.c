@@ -13,11 +13,11 @@
 #define MAGNETS_STRONG  1.15
 #define MAGNETS_UNUSUAL 4.0
 
-const check_value HCI_CHECK_NONE = {NAN, 1.0};
+const check_value HCI_CHECK_NONE = {NAN, 1.0, 0.0};
 
 check_value hci_check_found(double found)
 {
-    return (check_value){found, 1.0};
+    return (check_value){found, 1.0, 0.0};
 }
 
 check_value hci_check_ratio_of(double top, double bottom)
@@ -46,7 +46,7 @@ void hci_check_fit_add(check_fit *x, double top, double bottom, double unknown)
 check_value hci_check_fit_value(const check_fit *x)
 {
     if (!(x->square > 0.0)) return x->other > 0.0 ? hci_check_found(0.0) : HCI_CHECK_NONE;
-    return (check_value){x->cross / x->square, sqrt(1.0 + x->unknown / (x->square * x->square))};
+    return (check_value){x->cross / x->square, sqrt(1.0 + x->unknown / (x->square * x->square)), 0.0};
 }
 
 void hci_check_effects_add(check_effects_fit *fit, double y, double x, const double z[], double sigma)
@@ -75,19 +75,43 @@ static void matrix_of(const check_effects_fit *fit, const bool left_out[], doubl
 /* Of the standard deviation of an effect. */
 #define ROUNDING 1e-6
 
+/* The effects for which the factor is 1, b[0] being none of them, without those that are left out. False:
+ * they are not told. */
+static bool beside_one(const check_effects_fit *fit, const bool left_out[], double b[])
+{
+    bool without[CHECK_UNKNOWNS] = {true};
+    double matrix[CHECK_UNKNOWNS * CHECK_UNKNOWNS];
+    b[0] = 0.0;
+    for (int k = 1; k < CHECK_UNKNOWNS; ++k) {
+        without[k] = left_out[k];
+        b[k] = left_out[k] ? 0.0 : fit->right[k] - fit->matrix[k * CHECK_UNKNOWNS];
+    }
+    matrix_of(fit, without, matrix);
+    matrix[0] = 1.0;
+    if (hci_cholesky_factor(CHECK_UNKNOWNS, matrix)) return false;
+    hci_cholesky_solve(CHECK_UNKNOWNS, matrix, b);
+    return true;
+}
+
 /* Which of the one-sided effects would have to be negative for the factor to be 1. */
 static void leave_out(const check_effects_fit *fit, bool left_out[])
 {
-    const bool factor_alone[CHECK_UNKNOWNS] = {true};
-    double matrix[CHECK_UNKNOWNS * CHECK_UNKNOWNS], b[CHECK_UNKNOWNS] = {0.0};
-    matrix_of(fit, factor_alone, matrix);
-    matrix[0] = 1.0;
-    for (int k = 1; k < CHECK_UNKNOWNS; ++k)
-        b[k] = fit->right[k] - fit->matrix[k * CHECK_UNKNOWNS];
-    if (hci_cholesky_factor(CHECK_UNKNOWNS, matrix)) return;
-    hci_cholesky_solve(CHECK_UNKNOWNS, matrix, b);
+    double b[CHECK_UNKNOWNS];
+    if (!beside_one(fit, left_out, b)) return;
     for (int k = 1; k <= CHECK_ONE_SIDED; ++k)
         left_out[k] = b[k] < -ROUNDING;
+}
+
+bool hci_check_effects_beside_one(const check_effects_fit *fit, double b[])
+{
+    bool left_out[CHECK_UNKNOWNS] = {false};
+    double all[CHECK_UNKNOWNS];
+    if (fit->recordings == 0) return false;
+    leave_out(fit, left_out);
+    if (!beside_one(fit, left_out, all)) return false;
+    for (int k = 0; k < CHECK_MOST_EFFECTS; ++k)
+        b[k] = all[k + 1];
+    return true;
 }
 
 /* (A + 1)⁻¹ b by Cholesky; the variance of the factor stands at the first place of the inverse. */
@@ -103,7 +127,7 @@ check_value hci_check_effects_value(const check_effects_fit *fit, double toleran
     if (!(matrix[0] > 0.0) || hci_cholesky_factor(CHECK_UNKNOWNS, matrix)) return hci_check_found(0.0);
     hci_cholesky_solve(CHECK_UNKNOWNS, matrix, x);
     hci_cholesky_solve(CHECK_UNKNOWNS, matrix, unit);
-    return (check_value){x[0], hypot(1.0, sqrt(unit[0]) / tolerance)};
+    return (check_value){x[0], hypot(1.0, sqrt(unit[0]) / tolerance), 0.0};
 }
 
 check_value hci_check_relation_value(const check_data *data, const check_relation *relation,
@@ -143,11 +167,11 @@ double hci_check_deviation(const check_relation *r, check_value x)
     }
 }
 
-/* A Gaussian of the deviation on a floor: −ln(e^{−z²/2}/spread + e^{−cap}). */
+/* A Gaussian of the deviation on a floor: −ln(e^{−z²/2 − cost}/spread + e^{−cap}). */
 double hci_check_loss(const check_relation *r, check_value x)
 {
     const double z = hci_check_deviation(r, x);
-    return -log(exp(-0.5 * z * z) / x.spread + exp(-r->cap));
+    return -log(exp(-0.5 * z * z - x.cost) / x.spread + exp(-r->cap));
 }
 
 /* What is left of the tolerance of 5 %. */
@@ -158,8 +182,9 @@ double hci_check_loss_beside_magnets(const check_relation *r, check_value x, dou
     check_relation beside = *r;
     beside.tolerance *= BESIDE_MAGNETS;
     return hci_check_loss(
-        &beside, (check_value){x.found / share,
-                               hypot(1.0, sqrt(fmax(0.0, x.spread * x.spread - 1.0)) / BESIDE_MAGNETS)});
+        &beside,
+        (check_value){x.found / share,
+                      hypot(1.0, sqrt(fmax(0.0, x.spread * x.spread - 1.0)) / BESIDE_MAGNETS), x.cost});
 }
 
 double hci_check_magnets_loss(double share)

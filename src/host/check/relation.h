@@ -17,9 +17,10 @@ typedef enum {
     CHECK_MOST   /* at most the expected, by the logarithm of what is above */
 } check_kind;
 
-/* found: NAN where the data do not have it. spread: the tolerance is this many times that of the relation. */
+/* found: NAN where the data do not have it. spread: the tolerance is this many times that of the relation.
+ * cost: in nats, of what had to be supposed for it. */
 typedef struct {
-    double found, spread;
+    double found, spread, cost;
 } check_value;
 
 typedef struct {
@@ -80,7 +81,7 @@ check_value hci_check_fit_value(const check_fit *x);
  * that would do in the place of a wrong factor widens the tolerance of that factor, and one that acts
  * otherwise in another recording does not. Friction only takes torque away: the first effects are never
  * negative. Starts from {0}. */
-enum { CHECK_ONE_SIDED = 4, CHECK_MOST_EFFECTS = 6, CHECK_UNKNOWNS = 1 + CHECK_MOST_EFFECTS };
+enum { CHECK_ONE_SIDED = 5, CHECK_MOST_EFFECTS = 7, CHECK_UNKNOWNS = 1 + CHECK_MOST_EFFECTS };
 
 typedef struct {
     double matrix[CHECK_UNKNOWNS * CHECK_UNKNOWNS], right[CHECK_UNKNOWNS];
@@ -89,6 +90,9 @@ typedef struct {
 
 /* z: [CHECK_MOST_EFFECTS], in the unit of y. sigma: above 0, of this recording alone. */
 void hci_check_effects_add(check_effects_fit *fit, double y, double x, const double z[], double sigma);
+
+/* b: [CHECK_MOST_EFFECTS], for a factor of 1. False, and b undefined, where they are not told. */
+bool hci_check_effects_beside_one(const check_effects_fit *fit, double b[]);
 
 /* The factor; HCI_CHECK_NONE without recordings. tolerance: of the relation. */
 check_value hci_check_effects_value(const check_effects_fit *fit, double tolerance);

@@ -46,6 +46,16 @@ typedef struct {
 void hci_check_emf_of(const check_data *data, const check_run *r, const check_interpretation *as,
                       const check_model *m, check_emf *emf);
 
+/* The L_q - L_d that the torques ask for beside the torque per ampere of the tables, where none is declared:
+ * at small currents and at the largest i_q. share: of the largest torque of the magnets, what it makes at
+ * most; 0 where one is declared or no torque is told. left_open: beside it, the standard deviation of the
+ * torque per ampere. */
+typedef struct {
+    double small_H, large_H, share, left_open;
+} check_saliency;
+
+check_saliency hci_check_saliency(const check_data *data, const check_interpretation *as);
+
 extern const check_relation_list HCI_CHECK_TABLE_RELATIONS, HCI_CHECK_WAVE_RELATIONS,
     HCI_CHECK_TORQUE_RELATIONS, HCI_CHECK_COGGING_RELATIONS, HCI_CHECK_PHASE_RELATIONS,
     HCI_CHECK_POLE_RELATIONS;

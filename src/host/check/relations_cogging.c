@@ -79,7 +79,8 @@ static check_value cogging_angle(const check_data *data, const check_interpretat
     const check_vector turned = hci_check_product(found, hci_check_conjugate(declared));
     return (check_value){atan2(turned.im, turned.re),
                          hypot(1.0, 0.05 * hci_check_cogging_order(data, as, m, data->cogging.largest) /
-                                        CHECK_COGGING_ANGLE_TOLERANCE)};
+                                        CHECK_COGGING_ANGLE_TOLERANCE),
+                         0.0};
 }
 
 /* ---- the list */

@@ -13,6 +13,11 @@
 #define RELUCTANCE_UNKNOWN 1.5
 #define RELUCTANCE_KNOWN   0.25
 
+/* A machine with weak magnets and iron that saturates: so much of a saliency that keeps, and of one that
+ * sags. Where an i_d flows it is as likely as not, in nats. */
+#define RELUCTANCE_STRONG 2.5
+#define STRONG_COST       0.7
+
 /* Friction, iron and windage by the torque that the rated current makes; without a rating by the most that is
  * recorded, which may be little. */
 #define FRICTION_OF_RATED    0.03
@@ -150,36 +155,101 @@ static double reluctance_Nm(const check_run *r, const check_interpretation *as, 
     return hci_check_or_zero(m->reluctance_Nm_per_A2) * product;
 }
 
+/* What is left of L_d - L_q where i_q saturates the iron: half at seven tenths of the largest current. */
+static double sagging(double share_q)
+{
+    return 1.0 / (1.0 + 2.0 * share_q * share_q);
+}
+
+/* One recording: what the magnets and the declared saliency make of its current, and its i_d and i_q as
+ * shares of the largest current. */
+typedef struct {
+    double mutual_Nm, reluctance_Nm, d, q;
+} check_makes;
+
+static check_makes makes_of(const check_run *r, const check_interpretation *as, const check_model *m,
+                            const check_reference *reference)
+{
+    const check_vector i = hci_check_current_of(r, as, m), e = hci_check_emf_expected(1.0, m);
+    return (check_makes){1.5 * hci_check_product(i, hci_check_conjugate(e)).re, reluctance_Nm(r, as, m, i),
+                         i.re / reference->current_A, i.im / reference->current_A};
+}
+
+/* A saliency that is not declared. */
+static double saliency_Nm(const check_makes *x, bool is_strong)
+{
+    return -(is_strong ? RELUCTANCE_STRONG : RELUCTANCE_UNKNOWN) * x->mutual_Nm * x->d;
+}
+
 /* T = 3/2 Re(e* i) + K i_d i_q, and what may come to it. */
-static void torque_add(check_effects_fit *x, const check_data *data, const check_run *r,
-                       const check_interpretation *as, const check_model *m)
+static void torque_add(check_effects_fit *fit, const check_data *data, const check_run *r,
+                       const check_interpretation *as, const check_model *m, bool is_strong)
 {
     const bool is_known = !isnan(m->reluctance_Nm_per_A2);
     const check_reference reference = reference_of(data, as, m);
-    const check_vector i = hci_check_current_of(r, as, m), e = hci_check_emf_expected(1.0, m);
-    const double mutual = 1.5 * hci_check_product(i, hci_check_conjugate(e)).re,
-                 reluctance = reluctance_Nm(r, as, m, i), share = length_A(r, as) / reference.current_A;
-    const double speed = hci_check_or_zero(hci_check_speed_of(r, as, m)), way = (speed > 0.0) - (speed < 0.0),
-                 model = mutual + reluctance;
+    const check_makes x = makes_of(r, as, m, &reference);
+    const double share = length_A(r, as) / reference.current_A, model = x.mutual_Nm + x.reluctance_Nm;
+    const double speed = hci_check_or_zero(hci_check_speed_of(r, as, m)), way = (speed > 0.0) - (speed < 0.0);
+    const double saliency = is_known ? x.reluctance_Nm : saliency_Nm(&x, is_strong), left = sagging(x.q);
     const double z[CHECK_MOST_EFFECTS] = {
-        is_known ? 0.0 : -RELUCTANCE_UNKNOWN * mutual * i.re / reference.current_A,
+        is_known ? 0.0 : saliency,
+        is_strong ? saliency * (is_known ? left - 1.0 : left) : 0.0,
         -way * friction_unknown_Nm(data, &reference, speed),
         -model * share * share * (reference.is_rated ? SATURATION_AT_RATED : SATURATION_AT_MOST),
         -ACCELERATION * r->speed_change * way * fabs(model),
         [CHECK_ONE_SIDED] = ZERO_OF_RATED * reference.torque_Nm,
-        is_known ? RELUCTANCE_KNOWN * reluctance : 0.0,
+        is_known ? RELUCTANCE_KNOWN * x.reluctance_Nm : 0.0,
     };
-    hci_check_effects_add(x, r->torque_mean * as->torque, model, z,
+    hci_check_effects_add(fit, r->torque_mean * as->torque, model, z,
                           OWN * hypot(model, 0.3 * reference.torque_Nm));
 }
 
-static check_value torque_size(const check_data *data, const check_interpretation *as, const check_model *m)
+static check_effects_fit torque_fit(const check_data *data, const check_interpretation *as,
+                                    const check_model *m, bool is_strong)
 {
     check_effects_fit x = {0};
     for (size_t k = 0; k < data->runs; ++k)
         if (data->run[k].has_torque && hci_check_has_vector_current(data, &data->run[k]))
-            torque_add(&x, data, &data->run[k], as, m);
-    return hci_check_effects_value(&x, CHECK_TORQUE_TOLERANCE);
+            torque_add(&x, data, &data->run[k], as, m, is_strong);
+    return x;
+}
+
+/* Of the usual saliency or of a strong one, whichever agrees better. */
+static check_value torque_size(const check_data *data, const check_interpretation *as, const check_model *m)
+{
+    static const check_relation SIZE = {
+        .kind = CHECK_FLUX, .expected = 1.0, .tolerance = CHECK_TORQUE_TOLERANCE, .cap = 9.0};
+    const check_effects_fit usual_fit = torque_fit(data, as, m, false),
+                            strong_fit = torque_fit(data, as, m, true);
+    const check_value usual = hci_check_effects_value(&usual_fit, CHECK_TORQUE_TOLERANCE);
+    check_value strong = hci_check_effects_value(&strong_fit, CHECK_TORQUE_TOLERANCE);
+    strong.cost = STRONG_COST;
+    return isnan(usual.found) || hci_check_loss(&SIZE, usual) <= hci_check_loss(&SIZE, strong) ? usual
+                                                                                               : strong;
+}
+
+check_saliency hci_check_saliency(const check_data *data, const check_interpretation *as)
+{
+    const check_model m = hci_check_model_of(data, as);
+    const check_reference reference = reference_of(data, as, &m);
+    const check_effects_fit fit = torque_fit(data, as, &m, true);
+    check_saliency found = {.left_open = CHECK_TORQUE_TOLERANCE *
+                                         hci_check_effects_value(&fit, CHECK_TORQUE_TOLERANCE).spread};
+    double b[CHECK_MOST_EFFECTS], magnets_Nm = 0.0, reluctance = 0.0, most_q = 0.0;
+    if (!isnan(m.reluctance_Nm_per_A2) || !hci_check_effects_beside_one(&fit, b)) return found;
+    for (size_t k = 0; k < data->runs; ++k) {
+        const check_run *r = &data->run[k];
+        if (!r->has_torque || !hci_check_has_vector_current(data, r)) continue;
+        const check_makes x = makes_of(r, as, &m, &reference);
+        magnets_Nm = fmax(magnets_Nm, fabs(x.mutual_Nm));
+        reluctance = fmax(reluctance, fabs((b[0] + b[1] * sagging(x.q)) * saliency_Nm(&x, true)));
+        most_q = fmax(most_q, fabs(x.q));
+    }
+    const double unit_H = RELUCTANCE_STRONG * m.emf_Nm_per_A / m.pole_pairs / reference.current_A;
+    found.share = magnets_Nm > 0.0 ? reluctance / magnets_Nm : 0.0;
+    found.small_H = unit_H * (b[0] + b[1]);
+    found.large_H = unit_H * (b[0] + b[1] * sagging(most_q));
+    return found;
 }
 
 /* ---- how large the currents are */

@@ -97,6 +97,9 @@ char *hci_check_json(const hci_check *check)
     hci_json_number(&json, "zero_error_e_rad", check->zero_error_rad);
     hci_json_number(&json, "drive_zero_e_rad", check->drive_zero_rad);
     hci_json_number(&json, "drive_zero_reach_e_rad", check->drive_zero_reach_rad);
+    hci_json_number(&json, "saliency_H", check->saliency_H);
+    hci_json_number(&json, "saliency_at_load_H", check->saliency_at_load_H);
+    hci_json_number(&json, "scale_left_open", check->scale_left_open);
     put_lists(&json, check);
     return hci_json_end(&json);
 }

@@ -415,7 +415,7 @@ static void test_deviations(void)
     r.kind = CHECK_ANGLE;
     r.expected = 0.0;
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 2.0, hci_check_deviation(&r, hci_check_found(2.0 * REF_PI - 0.2)));
-    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.0, hci_check_deviation(&r, (check_value){0.2, 2.0}));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.0, hci_check_deviation(&r, (check_value){0.2, 2.0, 0.0}));
 }
 
 /* z²/2 near the expected value, and the cap far from it. */

@@ -99,9 +99,15 @@ typedef struct {
     double zero_reach_rad; /* zero_error_rad with what a saliency beside it leaves open, as it is said */
     bool zero_is_told; /* and no saliency, known or not, explains the torques as well at the zero as it is */
     double drive_zero_rad,
-        drive_zero_reach_rad; /* where they do not, and all currents lie in one direction: the
-                               * zero_rad with which they lie along q, as of a drive that keeps its
-                               * i_d at 0, and within how much the torques confirm it; else NAN */
+        drive_zero_reach_rad;              /* where they do not, and all currents lie in one direction: the
+                                            * zero_rad with which they lie along q, as of a drive that keeps its
+                                            * i_d at 0, and within how much the torques confirm it; else NAN */
+    double saliency_H, saliency_at_load_H; /* L_q - L_d of a reluctance torque that machine.csv does not
+                                            * declare and the torques, as declared, ask for: at small currents
+                                            * and at the largest i_q; NAN: none */
+    double
+        scale_left_open; /* beside it, standard deviation of the torque per ampere, of 1: as far another scale
+                          * of back-EMF, currents or torque makes these torques as well; NAN: no saliency */
     hci_check_evidence evidence[HCI_CHECK_MOST_EVIDENCE]; /* relations that could be checked */
     size_t evidences;                                     /* entries of evidence in use */
     hci_check_gap gap[HCI_CHECK_MOST_EVIDENCE];           /* relations that could not */
@@ -143,6 +149,10 @@ const hci_check *hci_check_ask(hci_check_inquiry *inquiry);
 /* The words of hci_check_sure_slip for hci_diagnose_options.slip, as long as the hci_check_inquiry that
  * inquiry points at; NULL: nothing. */
 const char *hci_check_slip(void *inquiry);
+
+/* Of saliency_H: what it is, what it is not told from, and what would tell them apart. "" where there is
+ * none. text: size bytes, 512 do. Returns text. */
+const char *hci_check_saliency_words(const hci_check *check, char *text, size_t size);
 
 /* What a slip is about, in words: "the kind and unit of the back-EMF". Static; "" for another name. */
 const char *hci_check_slip_topic(const char *slip);
