@@ -198,7 +198,7 @@ bench_log gains_idle 0 240 gains
 bench_log gains_load 3 240 gains
 bench_log gains_more 5.5 -250 gains
 run 0 tune gains --runs gains.csv --torque 5.24 -o gains_tuned
-says 'divide i_a by 1\.035' '^  - 2 % are common to the gains of all three currents, and may be the back-EMF.s instead, which is 2 % smaller then' 'The offsets of the currents are those of the logs: a drive that nulls its sensors'
+says 'divide i_a by 1\.035' '^  - 2 % are common to the gains of all three currents, and may be the back-EMF.s instead, which is 2 % smaller then, or the torque sensor.s, or iron that saturates: .* loads at three currents tell the iron' 'The offsets of the currents are those of the logs: a drive that nulls its sensors'
 run 1 tune slow.csv --pole-pairs 7 --kv 120 --rated-current 1 --torque 0.068 -o hot
 says '^tuned, but not as wanted: ' '^  - The torque is not as wanted, since the currents keep a limit, rms 0\.7071 A'
 

@@ -97,25 +97,37 @@ static double offsets_Nm(const cli_tuning *t)
 }
 
 /* Torque is back-EMF times current: a sensor of the torque does not tell a share of the one from one of the
- * other, nor from one of its own. */
-static void append_of_gain(cli_tuning *t)
+ * other, nor from one of its own or of the iron. */
+static void append_of_common_gain(cli_tuning *t, double gain, double other)
 {
-    const double gain = common_gain(t), other = -gain / (1.0 + gain);
-    if (fabs(gain) > 0.0 && t->has_emf)
+    const bool is_less = other < 0.0;
+    const char *effect = is_less ? "iron that saturates" : "a reluctance torque where an i_d flows",
+               *told_by = is_less
+                              ? "loads at three currents tell the iron, which takes more the larger they are"
+                              : "a load at i_d = 0 tells the reluctance";
+    if (t->has_emf)
         cli_tune_caveat(
             t,
             "%.2g %% are common to the gains of all three currents, and may be the torque sensor's "
             "instead, which "
-            "reads %.2g %% too %s then: the back-EMF is from voltages of these logs, and nothing in them "
-            "tells the two apart",
-            100.0 * fabs(gain), 100.0 * fabs(other), other < 0.0 ? "little" : "much");
-    else if (fabs(gain) > 0.0)
+            "reads %.2g %% too %s then, or magnets that are %s under load than beside the voltages, or %s: "
+            "the back-EMF is from voltages of these logs, and nothing in them "
+            "tells these apart; %s",
+            100.0 * fabs(gain), 100.0 * fabs(other), is_less ? "little" : "much",
+            is_less ? "warmer" : "colder", effect, told_by);
+    else
         cli_tune_caveat(
             t,
             "%.2g %% are common to the gains of all three currents, and may be the back-EMF's instead, which "
-            "is %.2g %% %s then: a torque sensor does not tell the two apart, and voltages of the open "
-            "machine do",
-            100.0 * fabs(gain), 100.0 * fabs(other), other < 0.0 ? "smaller" : "larger");
+            "is %.2g %% %s then, or the torque sensor's, or %s: a torque sensor does not tell these apart; "
+            "voltages of the open machine tell the back-EMF, and %s",
+            100.0 * fabs(gain), 100.0 * fabs(other), is_less ? "smaller" : "larger", effect, told_by);
+}
+
+static void append_of_gain(cli_tuning *t)
+{
+    const double gain = common_gain(t);
+    if (fabs(gain) > 0.0) append_of_common_gain(t, gain, -gain / (1.0 + gain));
     if (strstr(t->solution.corrections, " A from i_") || strstr(t->solution.corrections, " A to i_"))
         cli_tune_caveat(
             t,

@@ -27,17 +27,24 @@ static double found_above_sheet(const cli_tuning *t)
     return more_Nm_per_A / t->reading.run.torque_constant_Nm_per_A;
 }
 
-/* A torque sensor that reads too much makes all machines that its recordings allow too strong alike. */
+/* Magnets, iron and a sensor change it alike; of a sensor all that is said is in its N·m. */
 static void append_of_scale(cli_tuning *t)
 {
     const double share = found_above_sheet(t), percent = 100.0 * fabs(share);
+    const bool is_more = share > 0.0;
     if (t->is_solved && !t->has_emf && fabs(share) > NEAR_SHEET && percent < 100.0)
         cli_tune_caveat(
             t,
-            "The torque sensor shows %.2g %% %s torque per ampere than %s makes: if it is the sensor (or "
-            "those of the currents) that reads so, mean torque and ripple are as much %s than said",
-            percent, share > 0.0 ? "more" : "less", cli_tune_constant_option(t),
-            share > 0.0 ? "smaller" : "larger");
+            "The torque per ampere is %.2g %% %s than %s makes: %s magnets, %s, or a gain of the torque "
+            "sensor "
+            "(or of those of the currents), which would make mean torque and ripple as much %s than said. "
+            "Voltages of the open machine tell the magnets, and %s",
+            percent, is_more ? "more" : "less", cli_tune_constant_option(t),
+            is_more ? "stronger or colder" : "weaker or warmer",
+            is_more ? "a reluctance torque where an i_d flows" : "iron that saturates",
+            is_more ? "smaller" : "larger",
+            is_more ? "a load at i_d = 0 the reluctance"
+                    : "loads at three currents the iron, which takes more the larger they are");
 }
 
 /* What the recordings do not tell of the torque. */

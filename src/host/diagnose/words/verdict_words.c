@@ -467,8 +467,12 @@ static void say_open_voltage(const hci_words *w, const hci_diagnosis *d)
     else if (fabs(d->beyond_voltages) > HCI_BEYOND_VOLTAGES && d->verdict == HCI_DIAGNOSIS_EXPLAINED)
         hci_words_say(w,
                       " Its torque per ampere is %.2g %% %s what the voltages that were recorded without a "
-                      "current show: a gain of the torque or current sensors looks the same.",
-                      100.0 * fabs(d->beyond_voltages), d->beyond_voltages > 0.0 ? "above" : "below");
+                      "current show: %s, magnets that are %s under load, and a gain of the torque or current "
+                      "sensors look the same.",
+                      100.0 * fabs(d->beyond_voltages), d->beyond_voltages > 0.0 ? "above" : "below",
+                      d->beyond_voltages > 0.0 ? "a reluctance torque where an i_d flows"
+                                               : "iron that saturates",
+                      d->beyond_voltages > 0.0 ? "colder" : "warmer");
     if (!(d->open_voltage_off > HCI_OPEN_VOLTAGE_OFF)) return;
     hci_words_say(
         w,

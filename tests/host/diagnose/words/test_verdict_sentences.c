@@ -503,11 +503,15 @@ static void test_voltages_without_a_current(void)
     d.open_voltage_off = 0.0199;
     TEST_ASSERT_FALSE(says("voltages"));
     d.beyond_voltages = 0.0101;
-    TEST_ASSERT_TRUE(
-        says(" Its torque per ampere is 1 % above what the voltages that were recorded without a current "
-             "show: a gain of the torque or current sensors looks the same."));
+    TEST_ASSERT_TRUE(says(
+        " Its torque per ampere is 1 % above what the voltages that were recorded without a current "
+        "show: a reluctance torque where an i_d flows, magnets that are colder under load, and a gain of "
+        "the torque or current sensors look the same."));
     d.beyond_voltages = -0.12;
-    TEST_ASSERT_TRUE(says(" Its torque per ampere is 12 % below what"));
+    TEST_ASSERT_TRUE(
+        says(" Its torque per ampere is 12 % below what the voltages that were recorded without a current "
+             "show: iron that saturates, magnets that are warmer under load, and a gain of the torque or "
+             "current sensors look the same."));
     d.verdict = HCI_DIAGNOSIS_AMBIGUOUS;
     TEST_ASSERT_FALSE(says("Its torque per ampere"));
     d.verdict = HCI_DIAGNOSIS_EXPLAINED;
