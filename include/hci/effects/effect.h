@@ -174,6 +174,7 @@ typedef struct {
     double acceleration_rad_per_s2; /* largest rms of a run with a torque sensor */
     double current_A;               /* largest rms length of a run's current vector */
     double along_d_A;               /* largest mean i_d of a run, either way */
+    double flows_d_A;               /* largest rms i_d of a run */
     double standing_current_A;      /* largest mean of a phase current over many electrical turns */
     double reference_current_A;     /* for HCI_PARAMETER_REFERENCE_CURRENT */
     int richness;             /* of series in the currents: 0 low orders, 1 all orders, 2 high powers too */

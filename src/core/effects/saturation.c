@@ -77,6 +77,15 @@ static double expected_Nm(const hci_effect_survey *survey, int degree, int order
     return EXPECTED * most * pow(FADING, degree - 3) / (survey->machine->pole_pairs * (double)order);
 }
 
+#define HARDLY 0.05 /* of the current: an i_d that is ripple, errors of the sensors or of the angle */
+
+/* Of the mean, T = p C (a i_d^{a-1} i_q^{b+1} − b i_d^{a+1} i_q^{b-1}): where no i_d was given, only that of
+ * i_d i_q^b is seen, and its ripple would give the others a size that nobody has measured. */
+static bool needs_direct(const hci_effect_survey *survey, size_t monomial, int order)
+{
+    return order == 0 && MONOMIAL[monomial].a != 1 && survey->flows_d_A < HARDLY * survey->current_A;
+}
+
 /* One order of the power d^a q^b. A rotor that looks alike both ways round has cos for even and sin for odd
  * powers of i_q; the others are looked into at low orders only, and in the mean, where they make a torque
  * that keeps its sign with the load, only where the loads tell that. The mean has no sine. */
@@ -88,6 +97,7 @@ static void propose_order(const hci_effect_survey *survey, const hci_effect_prop
     for (size_t k = 0; k < (survey->richness == 0 ? 2 : 1); ++k) {
         const size_t wave = k == 0 ? usual : 1 - usual;
         const double alternatives = k == 1 ? UNSYMMETRIC : order == 0 ? USUAL_MEAN : USUAL;
+        if (needs_direct(survey, monomial, order)) continue;
         if (order == 0 && (wave == 0 || (k == 1 && survey->one_sided))) continue;
         hci_effect_propose(to, 2 * monomial + wave, 1, order, alternatives,
                            expected_Nm(survey, degree, order));

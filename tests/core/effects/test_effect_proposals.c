@@ -327,6 +327,7 @@ static const char *power(char text[16], int a, int b, bool cosine)
 static void test_powers_of_saturation(void)
 {
     hci_effect_survey s = recordings();
+    s.flows_d_A = 0.05 * s.current_A;
     char name[16];
     for (s.richness = 0; s.richness < 3; ++s.richness) {
         size_t k = 0;
@@ -350,6 +351,26 @@ static void test_powers_of_saturation(void)
     }
     s.reference_current_A = 0.0;
     proposes("saturation", &s, 0, NULL);
+}
+
+/* Of the means, d0q3 and the like make a torque of i_d alone: where it only ripples they are not looked for,
+ * and the loss of torque with load (d1q2) is, and what makes ripple. */
+static void test_means_without_an_i_d(void)
+{
+    hci_effect_survey s = recordings();
+    s.flows_d_A = 0.049 * s.current_A;
+    count = 0;
+    const hci_effect_type *type = hci_effect_type_find("saturation");
+    type->propose(&s, &TO);
+    size_t means = 0, ripples = 0;
+    for (size_t k = 0; k < count; ++k) {
+        const char *name = type->parameter[taken[k].parameter].name;
+        means += taken[k].order == 0.0;
+        ripples += taken[k].order == 6.0;
+        TEST_ASSERT_TRUE_MESSAGE(taken[k].order > 0.0 || strncmp(name, "d1q", 3) == 0, name);
+    }
+    TEST_ASSERT_EQUAL_UINT64(2, means);
+    TEST_ASSERT_EQUAL_UINT64(18, ripples);
 }
 
 /* ---- the series of the co-energy ---- */
@@ -639,6 +660,7 @@ int main(void)
     RUN_TEST(test_orders_of_reluctance);
     RUN_TEST(test_a_saliency_without_an_i_d);
     RUN_TEST(test_powers_of_saturation);
+    RUN_TEST(test_means_without_an_i_d);
     RUN_TEST(test_series_of_the_coenergy);
     RUN_TEST(test_ends_of_the_series);
     RUN_TEST(test_friction_that_fades);

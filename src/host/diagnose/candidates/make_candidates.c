@@ -234,6 +234,7 @@ static hci_effect_survey survey_of(const hci_candidates_source *s)
         if (s->use[r]) x.acceleration_rad_per_s2 = fmax(x.acceleration_rad_per_s2, f->rms_acceleration);
         x.current_A = fmax(x.current_A, f->current_A);
         x.along_d_A = fmax(x.along_d_A, fabs(f->mean_id_A));
+        x.flows_d_A = fmax(x.flows_d_A, f->rms_id_A);
         for (size_t phase = 0; phase < 3; ++phase)
             x.standing_current_A = fmax(x.standing_current_A, fabs(f->standing_A[phase]));
     }

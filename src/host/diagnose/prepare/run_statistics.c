@@ -83,6 +83,7 @@ static void sample_add(const hci_run *r, int pole_pairs, size_t k, hci_run_stati
     f->rms_torque_Nm += torque * torque / n;
     f->current_A += (i.d * i.d + i.q * i.q) / n;
     f->mean_id_A += i.d / n;
+    f->rms_id_A += i.d * i.d / n;
     f->mean_iq_A += i.q / n;
     const double speed = r->speed_rad_per_s ? r->speed_rad_per_s[k] : 0.0;
     f->mean_speed_rad_per_s += speed / n;
@@ -221,11 +222,12 @@ hci_run_statistics hci_run_statistics_of(const hci_run *r, int pole_pairs)
         sample_add(r, pole_pairs, k, &f);
     f.rms_torque_Nm = sqrt(f.rms_torque_Nm);
     f.current_A = sqrt(f.current_A);
+    f.rms_id_A = sqrt(f.rms_id_A);
     f.speed_deviation = sqrt(fmax(0.0, f.speed_deviation - f.mean_speed_rad_per_s * f.mean_speed_rad_per_s));
     pace_find(r, pole_pairs, &f);
     f.no_current = is_noise(r, pole_pairs, f.standing_A);
     f.is_loaded = !f.no_current && hci_run_is_loaded(r, pole_pairs);
-    if (f.no_current) f.current_A = f.mean_id_A = f.mean_iq_A = 0.0;
+    if (f.no_current) f.current_A = f.mean_id_A = f.mean_iq_A = f.rms_id_A = 0.0;
     if (r->only_mean) return f;
     f.angle_step_rad = angle_step(r);
     f.turns = turns_of(r);

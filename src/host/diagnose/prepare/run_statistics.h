@@ -31,6 +31,7 @@ typedef struct {
                                              * both ways; else as the mean, without its sign, and about it */
     bool both_ways;                         /* it does: an electrical turn or more each */
     double mean_id_A, mean_iq_A;
+    double rms_id_A;      /* root mean square: of one that varies about 0, too */
     double standing_A[3]; /* means of the phase currents over ten electrical turns or more; 0: fewer */
     bool stands;          /* besides them the currents are noise */
     bool zeros_read;      /* and they are the zeros of the sensors: no current flowed */
