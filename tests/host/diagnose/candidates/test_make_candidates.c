@@ -328,8 +328,8 @@ static void test_a_mean_that_keeps_its_sign(void)
             for (int phase = 0; phase < 3; ++phase)
                 run[0].i_A[3 * j + (size_t)phase] = 0.1 * (phase - 1);
         for (size_t j = 0; j < SAMPLES; ++j)
-            rec_phases(id_A, k == 1 || (k == 2 && j < SAMPLES / 2) ? -1.0 : 1.0, P * run[1].theta_m_rad[j],
-                       run[1].i_A + 3 * j);
+            rec_phases(id_A, k % 3 == 1 || (k % 3 == 2 && j < SAMPLES / 2) ? -1.0 : 1.0,
+                       P * run[1].theta_m_rad[j], run[1].i_A + 3 * j);
         symmetric = true;
         make();
         TEST_ASSERT_EQUAL(k % 3 == 0, hci_candidates_are_one_sided(&samples, use));

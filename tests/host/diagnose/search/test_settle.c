@@ -156,18 +156,27 @@ static hci_candidates settled_beside(const char *single)
     return found;
 }
 
+static bool has_mean(const hci_candidates *found, const char *parameter)
+{
+    bool has = false;
+    for (size_t k = 0; k < found->count; ++k) {
+        const hci_candidate *x = &found->candidate[k];
+        has = has || (x->in && strcmp(x->type->parameter[x->term[0].parameter].name, parameter) == 0);
+    }
+    return has;
+}
+
 /* The single terms take its place where their mean turns its sign, and else nothing does. */
 static void test_a_whole_that_keeps_its_sign_gives_way(void)
 {
     hci_candidates found = settled_beside("d1q2_cosine");
-    TEST_ASSERT_NOT_NULL(term_in(&found, "saturation", "d1q2_cosine", 0.0));
-    TEST_ASSERT_NULL(term_in(&found, "saturation", "d1q3_cosine", 0.0));
+    TEST_ASSERT_TRUE(has_mean(&found, "d1q2_cosine") && !has_mean(&found, "d1q3_cosine"));
     TEST_ASSERT_FALSE(search.whole_coenergy);
     hci_candidates_release(&found);
     tearDown();
     setUp();
     found = settled_beside("d0q3_cosine");
-    TEST_ASSERT_NULL(term_in(&found, "saturation", "d0q3_cosine", 0.0));
+    TEST_ASSERT_FALSE(has_mean(&found, "d0q3_cosine"));
     hci_candidates_release(&found);
 }
 
