@@ -5,7 +5,7 @@
 #include "host/diagnose/fit/cancelling.h"
 #include "host/diagnose/fit/model.h"
 #include "host/diagnose/search/brakes.h"
-#include "host/diagnose/search/unlike_iron.h"
+#include "host/diagnose/fit/unlike_iron.h"
 #include "host/machine/torque_constant.h"
 
 #define LEAST_CONSTANT 0.5  /* of the torque per ampere that is declared: a correction leaves no less */

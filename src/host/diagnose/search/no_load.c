@@ -6,9 +6,9 @@
 #include "host/diagnose/candidates/slip.h"
 #include "host/diagnose/search/backward.h"
 #include "host/diagnose/search/belief.h"
+#include "host/diagnose/search/noise_left.h"
 #include "host/diagnose/search/rivals.h"
 #include "host/diagnose/search/rounds.h"
-#include "host/diagnose/search/settle.h"
 #include "host/diagnose/search/stability.h"
 
 #define LITTLE 0.01 /* of the largest current, that is none */

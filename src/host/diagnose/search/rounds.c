@@ -5,14 +5,14 @@
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/candidates/make_candidates.h"
 #include "host/diagnose/fit/model.h"
+#include "host/diagnose/fit/unlike_iron.h"
 #include "host/diagnose/search/backward.h"
 #include "host/diagnose/search/few_values.h"
 #include "host/diagnose/search/forward.h"
+#include "host/diagnose/search/noise_left.h"
 #include "host/diagnose/search/rivals.h"
 #include "host/diagnose/search/sensor_zeros.h"
-#include "host/diagnose/search/settle.h"
 #include "host/diagnose/search/stability.h"
-#include "host/diagnose/search/unlike_iron.h"
 
 enum { MOST_EFFECTS = 9, MOST_ROUNDS = 14 };
 

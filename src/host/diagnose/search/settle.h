@@ -1,4 +1,4 @@
-/* Whether what is left is noise, and what that means for the effects that were found. */
+/* What it means for the effects that were found that what is left is noise, or is not. */
 #ifndef HCI_SRC_HOST_DIAGNOSE_SEARCH_SETTLE_H
 #define HCI_SRC_HOST_DIAGNOSE_SEARCH_SETTLE_H
 
@@ -7,9 +7,5 @@
 /* Compares what is left with the noise, and finds whether known effects stand beside something larger that is
  * not understood: sets unknown, wanders and unexplained_Nm, and may take effects out. HCI_ERROR_MEMORY. */
 hci_status hci_search_settle(hci_search *search, hci_attribution *attribution, hci_note *note);
-
-/* Whether what a model leaves is noise. Finds the noise anew. HCI_ERROR_MEMORY. */
-hci_status hci_search_is_noise(hci_search *search, const hci_candidates *model, bool *is_noise,
-                               hci_note *note);
 
 #endif

@@ -3,7 +3,7 @@
 #include "host/diagnose/reading/predicted_reading.h"
 
 #include "hci/math/dense.h"
-#include "host/diagnose/search/settle.h"
+#include "host/diagnose/search/noise_left.h"
 #include "support/searching.h"
 
 enum { N = 23772 /* 63 turns: what is behind the last one is left */, COLUMNS = 5 };

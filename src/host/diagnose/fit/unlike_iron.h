@@ -1,7 +1,7 @@
 /* What was found of the iron and no iron makes: a mean torque that keeps its sign with the load, and one that
  * grows faster than the current. */
-#ifndef HCI_SRC_HOST_DIAGNOSE_SEARCH_UNLIKE_IRON_H
-#define HCI_SRC_HOST_DIAGNOSE_SEARCH_UNLIKE_IRON_H
+#ifndef HCI_SRC_HOST_DIAGNOSE_FIT_UNLIKE_IRON_H
+#define HCI_SRC_HOST_DIAGNOSE_FIT_UNLIKE_IRON_H
 
 #include "host/diagnose/candidates/candidates.h"
 #include "host/diagnose/fit/dataset.h"

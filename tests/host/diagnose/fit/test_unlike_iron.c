@@ -1,6 +1,6 @@
 /* What iron cannot make: of a rotor that looks alike both ways round a mean torque that keeps its sign when
  * i_q turns its own, and of any a torque along q that grows faster than the current. */
-#include "host/diagnose/search/unlike_iron.h"
+#include "host/diagnose/fit/unlike_iron.h"
 
 #include "support/searching.h"
 

@@ -1,4 +1,4 @@
-#include "host/diagnose/search/unlike_iron.h"
+#include "host/diagnose/fit/unlike_iron.h"
 
 #include <math.h>
 
