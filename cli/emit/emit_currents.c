@@ -14,14 +14,13 @@
 static hci_status read_facts(const cli_arguments *a, cli_emit_currents *in, hci_note *note)
 {
     hci_emit_facts *facts = &in->request.facts;
-    hci_note none = {{0}};
     hci_status status = HCI_OK;
     in->request.blob = a->given[EMIT_BLOB];
     facts->angle_of_logs = a->given[EMIT_ANGLE_OF_LOGS];
     facts->angle_offset_deg = cli_number_or(a, EMIT_ANGLE_OFFSET, 0.0);
-    if (hci_solution_is_folder(a->word[0]) &&
-        hci_solution_read_mean_torque(a->word[0], &facts->mean_torque_Nm, &none) != HCI_OK)
-        facts->mean_torque_Nm = 0.0;
+    if (hci_solution_is_folder(a->word[0]) && hci_solution_has_spectrum(a->word[0]))
+        status = hci_solution_read_wanted_torque(a->word[0], &facts->mean_torque_Nm, note);
+    if (status) return status;
     if (facts->mean_torque_Nm != 0.0 && hci_solution_read_made_torque(a->word[0]) != 0.0)
         facts->mean_torque_Nm = hci_solution_read_made_torque(a->word[0]);
     if (!a->given[EMIT_MACHINE]) return HCI_OK;

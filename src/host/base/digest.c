@@ -3,7 +3,7 @@
 #include <errno.h>
 #include <stdio.h>
 
-#include "host/base/memory.h"
+#include "host/base/path.h"
 
 uint64_t hci_digest_next(uint64_t sum, const char *bytes, size_t count)
 {
@@ -17,11 +17,11 @@ bool hci_digest_file(const char *path, uint64_t *sum)
     FILE *file = fopen(path, "rb");
     char block[4096];
     size_t count;
-    if (!file && errno == ENOMEM) hci_memory_is_short();
-    if (!file) return false;
+    if (!file) return hci_unread_keep(path), false;
     while ((count = fread(block, 1, sizeof block, file)) > 0)
         *sum = hci_digest_next(*sum, block, count);
     const bool good = !ferror(file);
+    if (!good) hci_unread_keep(path);
     fclose(file);
     return good;
 }

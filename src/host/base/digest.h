@@ -11,7 +11,7 @@
 /* Goes on from `sum`, HCI_DIGEST_START at first. */
 uint64_t hci_digest_next(uint64_t sum, const char *bytes, size_t count);
 
-/* The same of all bytes of a file; false where it cannot be read. */
+/* The same of all bytes of a file; false where it cannot be read, which path.h keeps. */
 bool hci_digest_file(const char *path, uint64_t *sum);
 
 #endif

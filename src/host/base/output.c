@@ -21,6 +21,7 @@
 #include "host/base/folder_lock.h"
 #include "host/base/journal.h"
 #include "host/base/memory.h"
+#include "host/base/path.h"
 #include "host/base/quote.h"
 #include "host/base/sync.h"
 
@@ -481,7 +482,8 @@ static void undo(const sets *all)
             withdraw(&all->set[k]->files[i]);
 }
 
-/* The backups go first: whoever ends a journal takes them away, and without one nobody knows what they are. */
+/* The backups go first: whoever ends a journal takes them away, and without one nobody knows what they are.
+ */
 static void end_journal(const sets *all)
 {
     for (size_t k = 0; k < all->count; k++)
@@ -508,13 +510,19 @@ hci_status hci_output_checksums(hci_output *output,
     return HCI_OK;
 }
 
-/* What had no memory may be missing in these files. It is told once. */
 static hci_status check_memory(const hci_output *output, hci_note *note)
 {
     if (!hci_memory_was_short()) return HCI_OK;
     (void)hci_note_memory(note, output->folder, "a part of what is to be written");
     (void)hci_memory_was_short();
     return HCI_ERROR_MEMORY;
+}
+
+/* What had no memory, or could not be read, may be missing in these files. It is told once. */
+static hci_status check_inputs(const hci_output *output, hci_note *note)
+{
+    const hci_status status = check_memory(output, note);
+    return status ? status : hci_unread_check(note);
 }
 
 static hci_status publish_set(const hci_output *output, hci_note *note)
@@ -530,7 +538,7 @@ static hci_status publish_all(const sets *all, hci_note *note)
     hci_status status = HCI_OK;
     for (size_t k = 0; k < all->count && !status; k++)
         status = hci_output_check(all->set[k], note);
-    if (!status) status = check_memory(outer_of(all), note);
+    if (!status) status = check_inputs(outer_of(all), note);
     if (!status) status = begin_journal(all, note);
     if (status) return status;
     for (size_t k = 0; k < all->count && !status; k++)

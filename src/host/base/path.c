@@ -12,6 +12,7 @@
 
 #include "hci/host/base/spelling.h"
 #include "host/base/memory.h"
+#include "host/base/quote.h"
 
 #ifndef PATH_MAX
 #define PATH_MAX 4096
@@ -103,4 +104,39 @@ hci_status hci_path_relative(const char *file, const char *folder, char **relati
     if (!realpath(file, to)) return missing_file(file, note);
     *relative = relative_of(to, from);
     return *relative ? HCI_OK : hci_note_memory(note, file, "its path");
+}
+
+/* ---- files that are there and cannot be read ---- */
+
+static char unread_path[HCI_QUOTE_PATH_SIZE];
+static int unread_error;
+
+static bool is_nothing(int error)
+{
+    return error == ENOENT || error == ENOTDIR || error == ENAMETOOLONG || error == ELOOP;
+}
+
+void hci_unread_keep(const char *path)
+{
+    const int error = errno;
+    if (error == ENOMEM) hci_memory_is_short();
+    if (error == ENOMEM || is_nothing(error) || unread_error) return;
+    unread_error = error;
+    hci_quote_path(path, unread_path);
+}
+
+bool hci_unread_stat(const char *path, struct stat *info)
+{
+    if (stat(path, info) == 0) return true;
+    hci_unread_keep(path);
+    return false;
+}
+
+hci_status hci_unread_check(hci_note *note)
+{
+    const int error = unread_error;
+    unread_error = 0;
+    if (!error) return HCI_OK;
+    return hci_note_set(note, HCI_ERROR_INPUT, "%s: cannot be read: %s; mend that, and call again",
+                        unread_path, strerror(error));
 }

@@ -11,6 +11,7 @@
 #include "host/base/checksum.h"
 #include "host/base/json.h"
 #include "host/base/memory.h"
+#include "host/base/path.h"
 #include "host/base/quote.h"
 #include "host/base/whole_file.h"
 
@@ -33,7 +34,7 @@ static hci_status compare(const char *path, const char *wanted, bool is_needed, 
     char found[HCI_CHECKSUM_SIZE], shown[HCI_QUOTE_PATH_SIZE];
     if (!hci_checksum_file(path, found)) {
         if (errno == ENOMEM) return hci_note_memory(note, path, "reading it");
-        if (!is_needed) return HCI_OK;
+        if (!is_needed) return hci_unread_keep(path), HCI_OK;
         return hci_note_set(note, HCI_ERROR_INPUT,
                             "%s: cannot be read (%s), expected the file that " SUMMARY " beside it names; %s",
                             hci_quote_path(path, shown), strerror(errno), remedy);
@@ -64,7 +65,7 @@ hci_status hci_own_file_check_beside(const char *path, const char *remedy, hci_n
     char summary[PATH_SIZE];
     const int length = snprintf(summary, sizeof summary, "%.*s" SUMMARY, (int)(name_of(path) - path), path);
     struct stat info;
-    if (length >= PATH_SIZE || stat(summary, &info) != 0) return HCI_OK;
+    if (length >= PATH_SIZE || !hci_unread_stat(summary, &info)) return HCI_OK;
     char *text = hci_whole_file(summary);
     if (!text) return hci_memory_was_short() ? hci_note_memory(note, summary, "reading it") : HCI_OK;
     const hci_status status = hci_own_file_check(text, path, remedy, note);
@@ -93,6 +94,8 @@ static hci_status without_summary(const char *path, const char *remedy, hci_note
 {
     char shown[HCI_QUOTE_PATH_SIZE];
     if (hci_memory_was_short()) return hci_note_memory(note, path, "reading it");
+    const hci_status status = hci_unread_check(note);
+    if (status) return status;
     return hci_note_set(note, HCI_ERROR_INPUT,
                         "%s: found none with the checksums of the files beside it, expected the one that was "
                         "written with them; %s",
@@ -106,7 +109,7 @@ static hci_status check_files(const char *folder, bool is_needed, const char *re
     struct stat info;
     check c = {folder, remedy, HCI_OK, note};
     hci_status status = path_in(folder, SUMMARY, path, note);
-    if (status || (!is_needed && stat(path, &info) != 0)) return status;
+    if (status || (!is_needed && !hci_unread_stat(path, &info))) return status;
     char *text = hci_whole_file(path);
     if (!text || !hci_json_each_text(text, "checksums", check_one, &c))
         status = without_summary(path, remedy, note);
@@ -137,8 +140,9 @@ static hci_status check_within(const char *folder, const char *remedy, hci_note 
         return hci_note_set(note, HCI_ERROR_INPUT, "%.300s: cannot be read: %s; %s", folder, strerror(errno),
                             remedy);
     }
-    for (const struct dirent *entry; !status && (entry = readdir(open)) != NULL;)
+    for (const struct dirent *entry; !status && (errno = 0, entry = readdir(open)) != NULL;)
         status = check_entry(folder, entry->d_name, remedy, note);
+    if (!status && errno) hci_unread_keep(folder);
     closedir(open);
     return status;
 }

@@ -11,6 +11,7 @@
 #include "hci/host/csv/csv.h"
 #include "host/base/json.h"
 #include "host/base/memory.h"
+#include "host/base/path.h"
 #include "host/base/quote.h"
 #include "host/base/whole_file.h"
 #include "host/currents/own_files.h"
@@ -28,7 +29,7 @@ const char *hci_solution_file_name(hci_solution_file file)
 bool hci_solution_is_folder(const char *path)
 {
     struct stat info;
-    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+    return hci_unread_stat(path, &info) && S_ISDIR(info.st_mode);
 }
 
 static hci_status path_of(const char *folder, hci_solution_file file, char path[PATH_SIZE], hci_note *note)
@@ -59,7 +60,7 @@ bool hci_solution_has_parts(const char *folder)
 {
     char path[PATH_SIZE];
     struct stat info;
-    return !path_of(folder, HCI_SOLUTION_CURRENTS_PER_NM, path, NULL) && stat(path, &info) == 0;
+    return !path_of(folder, HCI_SOLUTION_CURRENTS_PER_NM, path, NULL) && hci_unread_stat(path, &info);
 }
 
 static bool has_file(const char *folder, const char *file)
@@ -67,7 +68,12 @@ static bool has_file(const char *folder, const char *file)
     char path[PATH_SIZE];
     struct stat info;
     const int length = snprintf(path, PATH_SIZE, "%s/%s", folder, file);
-    return length > 0 && length < PATH_SIZE && stat(path, &info) == 0;
+    return length > 0 && length < PATH_SIZE && hci_unread_stat(path, &info);
+}
+
+bool hci_solution_has_spectrum(const char *folder)
+{
+    return has_file(folder, hci_solution_file_name(HCI_SOLUTION_SPECTRUM));
 }
 
 /* Folders of results that have the folder of a solution in them. */

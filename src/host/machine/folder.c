@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 
 #include "host/base/digest.h"
+#include "host/base/path.h"
 
 enum { PATH_SIZE = 4096 };
 
@@ -18,7 +19,7 @@ const char *const hci_machine_files[HCI_MACHINE_FILES] = {"machine.csv", "back_e
 bool hci_machine_has(const char *path)
 {
     struct stat info;
-    return stat(path, &info) == 0 || errno != ENOENT;
+    return hci_unread_stat(path, &info) || errno != ENOENT;
 }
 
 hci_status hci_machine_path(char *path, size_t size, const char *folder, const char *file, hci_note *note)

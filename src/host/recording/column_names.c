@@ -5,12 +5,12 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "hci/host/base/number.h"
 #include "hci/host/base/spelling.h"
 #include "hci/host/base/text.h"
 #include "host/base/memory.h"
+#include "host/base/path.h"
 #include "host/base/quote.h"
 #include "host/csv/column.h"
 #include "host/csv/column_name.h"
@@ -405,7 +405,8 @@ hci_status hci_column_names_beside(hci_column_names *names, const char *file, hc
     if (path == NULL) return hci_note_memory(note, NULL, "names of columns");
     memcpy(path, file, folder);
     memcpy(path + folder, FILE_NAME, sizeof FILE_NAME);
-    const bool is_there = access(path, F_OK) == 0;
+    struct stat info;
+    const bool is_there = hci_unread_stat(path, &info);
     const hci_status status = is_there ? hci_column_names_read(names, path, note) : HCI_OK;
     hci_memory_free(path);
     return status;

@@ -34,6 +34,9 @@ bool hci_solution_is_folder(const char *path);
 /* Whether the folder has the currents in the two parts that a torque scales. */
 bool hci_solution_has_parts(const char *folder);
 
+/* Whether its spectrum.csv is there, from which its mean torque is read. */
+bool hci_solution_has_spectrum(const char *folder);
+
 /* Reads one of the three files of currents. path: the folder, or with HCI_SOLUTION_CURRENTS also one file.
  * HCI_ERROR_INPUT, _MEMORY. */
 hci_status hci_solution_read_currents(const char *path, hci_solution_file part, hci_currents *currents,
