@@ -31,7 +31,7 @@ static void lag(double x[3], const double *rate, double tau_s, double w)
 {
     double turned[3], zero;
     for (int s = 0; s < 3; ++s)
-        x[s] -= tau_s * (rate ? rate[s] : 0.0);
+        x[s] -= tau_s * rate[s];
     hci_phase_quarter(x, turned);
     zero = (x[0] + x[1] + x[2]) / 3.0;
     for (int s = 0; s < 3; ++s)

@@ -760,6 +760,31 @@ static void test_noisy_runs_repeat_to_the_bit(void)
     TEST_ASSERT_TRUE(state.control.hysteresis.switchings > 100);
 }
 
+/* Without a limit each axis integrates its own error: a sample adds k_i T times it to the voltage, in the
+ * plane √(3/2) of that. */
+static void test_each_axis_integrates_its_own_error(void)
+{
+    const hci_measurement m = {{1.0, -0.3, -0.7}, 0.3, 0.0};
+    const hci_dq i = hci_park(hci_clarke(m.i_abc), 3.0 * 0.3);
+    for (int axis = 0; axis < 2; ++axis) {
+        const double gain[2] = {axis == 0 ? 50.0 : 0.0, axis == 1 ? 50.0 : 0.0};
+        double before[2];
+        use_machine(&PM_SINE, 256);
+        drive.control.loop = HCI_CURRENT_PI;
+        drive.control.current = (hci_current_pi){.pi = {{1.0, gain[0]}, {1.0, gain[1]}}};
+        for (int k = 0; k < 5; ++k) {
+            const double *v = state.control.v;
+            hci_control_step(&drive.control, &state.control, &m, 0.0);
+            if (k > 0)
+                TEST_ASSERT_DOUBLE_WITHIN(1e-12,
+                                          sqrt(1.5) * 50.0 * drive.control.step_s * fabs(axis ? i.q : i.d),
+                                          hypot(v[0] - before[0], v[1] - before[1]));
+            memcpy(before, v, sizeof before);
+        }
+    }
+    TEST_ASSERT_TRUE(fabs(i.d) > 0.1 && fabs(i.q) > 0.1);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -793,5 +818,6 @@ int main(void)
     RUN_TEST(test_imposed_currents_have_the_predicted_spectrum);
     RUN_TEST(test_sensors_stand_between);
     RUN_TEST(test_noisy_runs_repeat_to_the_bit);
+    RUN_TEST(test_each_axis_integrates_its_own_error);
     return UNITY_END();
 }

@@ -352,6 +352,30 @@ static void test_ends_of_what_there_is(void)
     TEST_ASSERT_TRUE(one.share == 1.0f && one.step == 1.0f && one.wanted == 1u);
 }
 
+/* Half of the counter's range less a half is still forward, one count more is back. */
+static void test_a_counter_turns_by_half_of_its_range(void)
+{
+    static const uint32_t MODULUS[] = {65536u, 1001u, 0u};
+    for (size_t k = 0; k < sizeof MODULUS / sizeof *MODULUS; ++k) {
+        const uint32_t per_turn = MODULUS[k] ? 100000u : 2147483647u, half = (MODULUS[k] - 1u) / 2u;
+        hci_counter counter;
+        hci_counter_start(&counter, MODULUS[k], per_turn, 1, 0u);
+        hci_counter_angle(&counter, half);
+        TEST_ASSERT_EQUAL_UINT32(half % per_turn, counter.position);
+        hci_counter_start(&counter, MODULUS[k], per_turn, 1, 0u);
+        hci_counter_angle(&counter, half + 1u);
+        TEST_ASSERT_EQUAL_UINT32((2u * per_turn - (MODULUS[k] - half - 1u)) % per_turn, counter.position);
+    }
+}
+
+static void test_numbers_are_below_1e15(void)
+{
+    TEST_ASSERT_EQUAL_INT(0, hci_guard_is_number(1e15f));
+    TEST_ASSERT_EQUAL_INT(0, hci_guard_is_number(-1e15f));
+    TEST_ASSERT_EQUAL_INT(1, hci_guard_is_number(nextafterf(1e15f, 0.0f)));
+    TEST_ASSERT_EQUAL_INT(1, hci_guard_is_number(nextafterf(-1e15f, 0.0f)));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -370,5 +394,7 @@ int main(void)
     RUN_TEST(test_voltages_of_phases);
     RUN_TEST(test_between_two_tables);
     RUN_TEST(test_ends_of_what_there_is);
+    RUN_TEST(test_a_counter_turns_by_half_of_its_range);
+    RUN_TEST(test_numbers_are_below_1e15);
     return UNITY_END();
 }

@@ -96,6 +96,11 @@ static double worst_error(void)
     return ref_worse(worst, (double)x.friction[0] - COULOMB);
 }
 
+static void test_there_is_no_work_before_a_sample(void)
+{
+    TEST_ASSERT_EQUAL_INT(0, hci_learn_work(&learn));
+}
+
 static void test_cogging_and_friction_apart(void)
 {
     turn_both_ways((turning){40000.0, 0.0, 0.0, 0, 1}, 2.0);
@@ -349,6 +354,7 @@ static uint32_t write_blob(void)
     turn_both_ways((turning){20000.0, 0.1, 0.5, 0, 10}, 2.0);
     const uint32_t size = hci_learn_write(&learn, &FACTS, bytes, MOST_BYTES);
     TEST_ASSERT_EQUAL_UINT32(hci_learn_bytes(ORDERS), size);
+    TEST_ASSERT_EQUAL_UINT32(size, hci_learn_write(&learn, &FACTS, bytes, size));
     TEST_ASSERT_EQUAL_UINT32(0, hci_learn_write(&learn, &FACTS, bytes + 500, size - 1));
     return size;
 }
@@ -454,6 +460,7 @@ static void test_power_cut_at_every_byte(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_there_is_no_work_before_a_sample);
     RUN_TEST(test_cogging_and_friction_apart);
     RUN_TEST(test_uneven_speed);
     RUN_TEST(test_few_samples);

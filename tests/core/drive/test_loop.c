@@ -489,6 +489,29 @@ static void test_without_a_table_a_sine(void)
     TEST_ASSERT_TRUE(r.i_A[0] == 0.0 && r.i_A[1] == 2.5 && r.v_V[0] == 0.0 && r.v_V[1] == 0.0);
 }
 
+/* Straight from 0 at a standstill to the first point, between the points, and as at the last one above; the
+ * other way round the conjugate. */
+static void test_a_measured_response_between_its_points(void)
+{
+    static const hci_loop_response RESPONSE[2] = {
+        {.frequency_rad_per_s = 40.0f, .re = {2.0f, 3.0f}, .im = {1.0f, -4.0f}},
+        {.frequency_rad_per_s = 100.0f, .re = {5.0f, -6.0f}, .im = {7.0f, 8.0f}}};
+    static const float NU[] = {20.0f, 70.0f, 500.0f}, FIRST[] = {0.5f, 0.5f, 0.0f},
+                       SECOND[] = {0.0f, 0.5f, 1.0f};
+    const hci_loop_f32 measured = {.responses = RESPONSE, .response_count = 2};
+    const hci_loop_pair x = {1.5f, -0.5f};
+    for (int k = 0; k < 3; ++k)
+        for (int a = 0; a < 2; ++a)
+            for (int way = -1; way <= 1; way += 2) {
+                const float re = FIRST[k] * RESPONSE[0].re[a] + SECOND[k] * RESPONSE[1].re[a];
+                const float im = FIRST[k] * RESPONSE[0].im[a] + SECOND[k] * RESPONSE[1].im[a];
+                const hci_loop_pair expected = hci_loop_times(x, re, (float)way * im);
+                const hci_loop_pair found = hci_loop_measured(&measured, (float)way * NU[k], a, x);
+                TEST_ASSERT_FLOAT_WITHIN(1e-5f, expected.c, found.c);
+                TEST_ASSERT_FLOAT_WITHIN(1e-5f, expected.s, found.s);
+            }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -509,5 +532,6 @@ int main(void)
     RUN_TEST(test_shapes_that_no_loop_has);
     RUN_TEST(test_a_simulated_drive_reads_the_table);
     RUN_TEST(test_without_a_table_a_sine);
+    RUN_TEST(test_a_measured_response_between_its_points);
     return UNITY_END();
 }

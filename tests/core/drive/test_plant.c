@@ -397,6 +397,23 @@ static void test_run_down_with_friction(void)
     check_run_down(-1.0);
 }
 
+/* As above, but a rotor that rests long before its only step ends: a straight line of the speed would end it
+ * 5 % later. */
+static void test_rest_within_a_long_step(void)
+{
+    const double j = 0.01, b = 0.02, tc = 0.05, rest_s = 0.1, none[2] = {0.0, 0.0};
+    const double w0 = tc / b * (exp(b * rest_s / j) - 1.0), way = j * w0 / b - tc * rest_s / b;
+    hci_plant_state y = {{0.0, 0.0}, w0, 1.0, 0.0};
+    use_machine(&PM_SINE, 256);
+    plant.inertia_kgm2 = j;
+    plant.viscous_Nms = b;
+    plant.coulomb_Nm = tc;
+    hci_plant_step_imposed(&plant, &y, none, 0.0, 1.5 * rest_s);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, y.speed_rad_per_s);
+    /* by Runge and Kutta (ω_0 + T_c/B)(J/B)(Bt/J)⁵/120 = 4e-6 */
+    TEST_ASSERT_DOUBLE_WITHIN(8e-6, 1.0 + way, hci_plant_angle_rad(&y));
+}
+
 static void test_run_down_without_coulomb_friction(void)
 {
     hci_plant_state y = {{0.0, 0.0}, 30.0, 1.0, 0.0};
@@ -641,5 +658,6 @@ int main(void)
     RUN_TEST(test_effects);
     RUN_TEST(test_angle_is_wrapped_and_counted);
     RUN_TEST(test_runs_repeat_to_the_bit);
+    RUN_TEST(test_rest_within_a_long_step);
     return UNITY_END();
 }

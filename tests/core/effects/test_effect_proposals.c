@@ -195,6 +195,9 @@ static void test_what_each_effect_names(void)
              (named[]){{"a", 1, 0.0, 3.0, 0.5}, {"b", 1, 0.0, 3.0, 0.5}, {"c", 1, 0.0, 3.0, 0.5}});
     proposes("position_offset", &s, 1, (named[]){{"angle", 1, 0.0, 1.0, 0.1}});
     proposes("position_load", &s, 1, (named[]){{"per_ampere", 1, 0.0, 2.0, 0.01}});
+    s.current_A = 0.1; /* of a small motor */
+    proposes("position_load", &s, 1, (named[]){{"per_ampere", 1, 0.0, 2.0, 1.0}});
+    s.current_A = 10.0;
     proposes("position_eccentricity", &s, 2,
              (named[]){{"mech_sine", 2, 1.0, 2.0, 0.03}, {"mech_sine", 2, 2.0, 2.0, 0.03}});
     proposes(

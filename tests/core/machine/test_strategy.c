@@ -771,6 +771,18 @@ static void test_least_iq_is_the_threshold(void)
     TEST_ASSERT_TRUE(count[0] > 500 && count[1] > 500 && count[2] > 500);
 }
 
+/* Only L'_d: M'² = L'_d L'_q, and a cogging torque that i_d can take away at every i_q, or at none. */
+static void test_least_iq_of_one_slope(void)
+{
+    for (int sign = -1; sign <= 1; ++sign) {
+        const hci_machine_point p = {{0.0, 2.0}, {0.5, 0.0, 0.0}, 0.1 * sign};
+        double x[2], least_A;
+        const hci_status status = hci_strategy_current(&p, HCI_STRATEGY_CANCEL, 1.0, NULL, x, &least_A);
+        TEST_ASSERT_EQUAL_INT(sign > 0 ? HCI_NOT_REACHED : HCI_OK, status);
+        TEST_ASSERT_EQUAL_DOUBLE(sign > 0 ? HUGE_VAL : 0.0, least_A);
+    }
+}
+
 /* Slopes along the back-EMF alone, with the least torque at 1 − e²/2h: none of 0, though rounding leaves a
  * back-EMF of 1e-16 beside it, where nothing bounds the current. */
 static void test_rounding_beside_the_back_emf_makes_no_torque(void)
@@ -1107,5 +1119,6 @@ int main(void)
     RUN_TEST(test_accuracy_against_long_double);
     RUN_TEST(test_speed_is_told);
     RUN_TEST(test_machine_c_over_a_turn);
+    RUN_TEST(test_least_iq_of_one_slope);
     return UNITY_END();
 }

@@ -197,19 +197,21 @@ static void test_cancelling_in_any_unit(void)
 }
 
 /* Two roots that are equally long: the one nearer to what went before. i_d² = (1 − a)/… of T = e i_q + ½ h
- * i_d² + T_cog. */
+ * i_d² + T_cog, with the d axis in any direction. */
 static void test_of_two_roots_the_nearer(void)
 {
-    const curve c = {{{0.0, 1.0}, {0.2, 0.0, 0.0}, -0.1}, {0.0, 0.0, 0.0, 0.0}};
-    const hci_smooth_torque torque = {torque_at, &c};
-    for (int side = -1; side <= 1; side += 2) {
-        const double previous[2] = {0.9 * side, 1.4};
-        double x[2];
-        TEST_ASSERT_EQUAL_INT(
-            HCI_OK, hci_strategy_smooth_current(&torque, &c.quadric, HCI_STRATEGY_CANCEL, 1.5, previous, x));
-        TEST_ASSERT_DOUBLE_WITHIN(1e-9, side, x[0]);
-        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.5, x[1]);
-    }
+    for (int k = 0; k < 12; ++k)
+        for (int side = -1; side <= 1; side += 2) {
+            const double u = cos(REF_PI * k / 6.0), v = sin(REF_PI * k / 6.0);
+            const curve c = {{{-v, u}, {0.2 * u * u, 0.2 * u * v, 0.2 * v * v}, -0.1}, {0.0, 0.0, 0.0, 0.0}};
+            const hci_smooth_torque torque = {torque_at, &c};
+            const double previous[2] = {0.9 * side * u - 1.4 * v, 0.9 * side * v + 1.4 * u};
+            double x[2];
+            TEST_ASSERT_EQUAL_INT(HCI_OK, hci_strategy_smooth_current(&torque, &c.quadric,
+                                                                      HCI_STRATEGY_CANCEL, 1.5, previous, x));
+            TEST_ASSERT_DOUBLE_WITHIN(1e-9, side * u - 1.5 * v, x[0]);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-9, side * v + 1.5 * u, x[1]);
+        }
 }
 
 /* ---- a torque of few directions ---- */

@@ -226,6 +226,15 @@ static void test_waves_of_one_order_join(void)
     TEST_ASSERT_EQUAL_DOUBLE(33.0, sum);
 }
 
+/* The floor is a share of the largest wave, which may be the first. */
+static void test_the_floor_is_a_share_of_the_largest(void)
+{
+    hci_wave waves[] = {{1.0, 1, 10.0, 0.0}, {5.0, 1, 0.005, 0.0}, {7.0, 1, 0.0, 0.02}};
+    TEST_ASSERT_EQUAL_UINT64(2, hci_waves_join(waves, 3, 1e-3));
+    TEST_ASSERT_EQUAL_DOUBLE(1.0, waves[0].order);
+    TEST_ASSERT_EQUAL_DOUBLE(7.0, waves[1].order);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -243,5 +252,6 @@ int main(void)
     RUN_TEST(test_mean_square_of_known_currents);
     RUN_TEST(test_floor_is_of_the_largest);
     RUN_TEST(test_waves_of_one_order_join);
+    RUN_TEST(test_the_floor_is_a_share_of_the_largest);
     return UNITY_END();
 }
