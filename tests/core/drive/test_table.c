@@ -288,6 +288,19 @@ static void test_torque_is_limited(void)
     }
 }
 
+/* The check value of CRC-32 (ISO-HDLC). */
+static void test_crc_is_that_of_the_standard(void)
+{
+    uint32_t by_nibbles = 0xFFFFFFFFu, by_words = 0xFFFFFFFFu;
+    for (const char *c = "123456789"; *c; ++c)
+        by_nibbles = hci_table_crc32_next(by_nibbles, (uint32_t)(unsigned char)*c, 2);
+    by_words = hci_table_crc32_next(by_words, 0x34333231u, 8);
+    by_words = hci_table_crc32_next(by_words, 0x38373635u, 8);
+    by_words = hci_table_crc32_next(by_words, 0x39u, 2);
+    TEST_ASSERT_EQUAL_HEX32(0xCBF43926u, ~by_nibbles);
+    TEST_ASSERT_EQUAL_HEX32(0xCBF43926u, ~by_words);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -304,5 +317,6 @@ int main(void)
     RUN_TEST(test_sum_is_that_of_its_formula);
     RUN_TEST(test_check_compares_every_probe);
     RUN_TEST(test_check_refuses_wrong_shapes);
+    RUN_TEST(test_crc_is_that_of_the_standard);
     return UNITY_END();
 }

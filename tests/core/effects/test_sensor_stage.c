@@ -81,11 +81,23 @@ static void test_many_stages_are_each_alone(void)
     check_many(slow);
 }
 
+/* Even where two steps before and one behind are as long; the last sample has none behind it. */
+static void test_where_samples_are_even(void)
+{
+    static const double TIME_S[] = {0.0, 1.0, 2.0, 3.0, 4.5};
+    static const bool EVEN[] = {false, false, true, false, false};
+    for (size_t k = 0; k < 5; ++k) {
+        TEST_ASSERT_EQUAL_INT(EVEN[k], hci_stage_is_even(TIME_S, 5, k));
+        TEST_ASSERT_EQUAL_INT(k == 2, hci_stage_is_even(TIME_S, 4, k));
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_resonance_keeps_its_frequency);
     RUN_TEST(test_parts_of_a_step);
     RUN_TEST(test_many_stages_are_each_alone);
+    RUN_TEST(test_where_samples_are_even);
     return UNITY_END();
 }

@@ -309,6 +309,18 @@ static void test_where_no_current_helps(void)
     TEST_ASSERT_TRUE(x[0] == 0.0 && x[1] == 0.0);
 }
 
+/* A motor of 0.1 N·m/A. */
+static void test_a_small_back_emf_is_one(void)
+{
+    const curve c = {{{0.0, 0.1}, {0.0, 0.0, 0.0}, 0.0}, {0.0, 0.0, 0.0, 0.0}};
+    const hci_smooth_torque torque = {torque_at, &c};
+    double x[2];
+    TEST_ASSERT_EQUAL_INT(
+        HCI_OK, hci_strategy_smooth_current(&torque, &c.quadric, HCI_STRATEGY_CANCEL, 0.15, NULL, x));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, x[0]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.5, x[1]);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -320,5 +332,6 @@ int main(void)
     RUN_TEST(test_a_torque_that_few_directions_make);
     RUN_TEST(test_what_is_not_reached);
     RUN_TEST(test_where_no_current_helps);
+    RUN_TEST(test_a_small_back_emf_is_one);
     return UNITY_END();
 }
