@@ -154,6 +154,26 @@ static void test_a_gain_that_voltages_do_not_show(void)
     }
 }
 
+/* Voltages of millivolts, of a watch motor, say the same. */
+static void test_small_voltages(void)
+{
+    double error, small_error;
+    record_open(1.03, 0.02, 0.0);
+    const double off = hci_open_voltage_off(&machine.model, &runs);
+    const double scale = hci_open_voltage_scale_fitted(&machine.model, &runs, &error);
+    for (size_t k = 0; k < 3 * N; ++k)
+        voltage[0][k] *= 0x1p-12;
+    for (size_t k = 0; k < machine.model.back_emf_count; ++k) {
+        machine.back_emf[k].sine *= 0x1p-12;
+        machine.back_emf[k].cosine *= 0x1p-12;
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, off, hci_open_voltage_off(&machine.model, &runs));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, scale, hci_open_voltage_scale(&machine.model, &runs));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, scale,
+                              hci_open_voltage_scale_fitted(&machine.model, &runs, &small_error));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9 * error, error, small_error);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -165,5 +185,6 @@ int main(void)
     RUN_TEST(test_nothing_in_the_torque);
     RUN_TEST(test_voltages_exclude_a_weaker_back_emf);
     RUN_TEST(test_a_gain_that_voltages_do_not_show);
+    RUN_TEST(test_small_voltages);
     return UNITY_END();
 }
