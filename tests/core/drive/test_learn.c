@@ -365,6 +365,7 @@ static void test_blob_restores_what_was_learnt(void)
     hci_learn_sums other[ORDERS + 1];
     hci_learn_facts facts;
     hci_learn again;
+    memset(&facts, 0xA5, sizeof facts);
     hci_learn_start(&again, ORDER, ORDERS, other, 4096);
     TEST_ASSERT_EQUAL(HCI_BLOB_GOOD, hci_learn_check(bytes, size, &facts));
     TEST_ASSERT_EQUAL_MEMORY(&FACTS, &facts, sizeof facts);

@@ -175,10 +175,10 @@ static void test_delays_by_parts_of_a_step(void)
     for (int k = 0; k < STEPS; ++k) {
         const double theta = fmod(OMEGA * STEP_s * k, 2.0 * REF_PI);
         for (int s = HCI_SENSE_IA; s <= HCI_SENSE_IC; ++s) {
-            const double i = read(s, 1.0 + 0.25 * k, theta);
+            const double sign = s == HCI_SENSE_IB ? -1.0 : 1.0, i = read(s, sign * (1.0 + 0.25 * k), theta);
             if (k < 2) TEST_ASSERT_EQUAL_DOUBLE(-7.0, i);
-            if (k == 2) TEST_ASSERT_EQUAL_DOUBLE(1.0, i);
-            if (k > 2) TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.0 + 0.25 * (k - 2.3), i);
+            if (k == 2) TEST_ASSERT_EQUAL_DOUBLE(sign, i);
+            if (k > 2) TEST_ASSERT_DOUBLE_WITHIN(1e-12, sign * (1.0 + 0.25 * (k - 2.3)), i);
         }
         const double angle = read(HCI_SENSE_ANGLE, theta, theta), off = angle - OMEGA * STEP_s * (k - 3.75);
         if (k > 4)
