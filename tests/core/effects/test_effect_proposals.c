@@ -478,6 +478,21 @@ static void stribeck(double excess_Nm, double of, double last, const hci_effect_
     *named_first = count == 1 ? &taken[0] : NULL;
 }
 
+/* What grows with the square of the speed is no excess that fades, beside some hundredths of one that noise
+ * makes. */
+static void test_a_fan_does_not_fade(void)
+{
+    hci_effect_speed_mean mean[MEANS];
+    hci_effect_survey s = recordings();
+    for (int k = 0; k < MEANS; ++k) {
+        const double w = (k % 2 ? -1.0 : 1.0) * pow(100.0, (k / 2) / 5.0), sign = w > 0.0 ? 1.0 : -1.0;
+        mean[k] = (hci_effect_speed_mean){w, -sign * (0.1 + 2e-6 * w * w + 2e-5 * exp(-w * w / 64.0)), 1e8};
+    }
+    s.of_speed = mean;
+    s.of_speeds = MEANS;
+    proposes("stribeck_friction", &s, 0, NULL);
+}
+
 static double start[2];
 
 static void take_start(void *context, const hci_effect_candidate *candidate)
@@ -666,6 +681,7 @@ int main(void)
     RUN_TEST(test_means_without_an_i_d);
     RUN_TEST(test_series_of_the_coenergy);
     RUN_TEST(test_ends_of_the_series);
+    RUN_TEST(test_a_fan_does_not_fade);
     RUN_TEST(test_friction_that_fades);
     RUN_TEST(test_friction_that_fades_seen_from_one_side);
     RUN_TEST(test_the_speed_at_which_friction_fades);
