@@ -217,6 +217,29 @@ static void test_torque_of_each_effect(void)
     }
 }
 
+/* Terms of one effect add up. */
+static void test_torque_of_several_terms(void)
+{
+    uint64_t seed = 1;
+    for (size_t first = 0; first < MACHINE_CASES; ++first) {
+        el_list l = {0};
+        if (first > 0 && strcmp(MACHINE[first - 1].effect, MACHINE[first].effect) == 0) continue;
+        for (size_t k = first; k < MACHINE_CASES && strcmp(MACHINE[k].effect, MACHINE[first].effect) == 0;
+             ++k)
+            el_add(&l, MACHINE[k].effect, MACHINE[k].parameter, MACHINE[k].order, MACHINE[k].value);
+        for (int j = 0; j < DRAWS; ++j) {
+            const hci_sample x = el_sample(&seed);
+            double d, q, sum = 0.0;
+            rotor(&x, &d, &q);
+            for (size_t k = first; k < first + l.effect[0].count; ++k)
+                sum += MACHINE[k].torque(&x, P * x.theta_m_rad, d, q);
+            TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-12, sum,
+                                              hci_effects_torque(&m.machine, &l.list, &x, NULL).torque_Nm,
+                                              MACHINE[first].effect);
+        }
+    }
+}
+
 /* Many terms together, orders and powers in any sequence, more orders than are remembered: the sum of each
  * alone. */
 static void sums_up(const char *effect, const char *const parameter[], int parameters, bool with_reference)
@@ -1215,6 +1238,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_torque_of_each_effect);
+    RUN_TEST(test_torque_of_several_terms);
     RUN_TEST(test_terms_of_the_coenergy_add_up);
     RUN_TEST(test_saturation_scales_with_its_reference);
     RUN_TEST(test_unknown_temperature_is_the_reference);
