@@ -783,6 +783,24 @@ static void test_least_iq_of_one_slope(void)
     }
 }
 
+/* No back-EMF along the eigenvector u of the one slope h: i = ±√(2(τ − e²/h)/h) u + e/h v, of the sign of
+ * what went before, whichever way u points. */
+static void test_either_way_along_the_axis_the_nearer(void)
+{
+    const double e = 0.1, h = 0.5, along_A = sqrt(2.0 * (2.0 - e * e / h) / h);
+    for (int k = 0; k < 24; ++k) {
+        const double u[2] = {cos(0.2 + REF_PI * (k / 2) / 6.0), sin(0.2 + REF_PI * (k / 2) / 6.0)},
+                     side = k % 2 ? -1.0 : 1.0;
+        const hci_machine_point p = {
+            {-e * u[1], e * u[0]}, {h * u[0] * u[0], h * u[0] * u[1], h * u[1] * u[1]}, 0.0};
+        const double previous[2] = {0.5 * side * u[0] - 3.0 * u[1], 0.5 * side * u[1] + 3.0 * u[0]};
+        double x[2];
+        TEST_ASSERT_EQUAL_INT(HCI_OK, hci_strategy_current(&p, HCI_STRATEGY_MTPA, 2.0, previous, x, NULL));
+        TEST_ASSERT_DOUBLE_WITHIN(1e-7, side * along_A, x[0] * u[0] + x[1] * u[1]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-7, e / h, x[1] * u[0] - x[0] * u[1]);
+    }
+}
+
 /* Slopes along the back-EMF alone, with the least torque at 1 − e²/2h: none of 0, though rounding leaves a
  * back-EMF of 1e-16 beside it, where nothing bounds the current. */
 static void test_rounding_beside_the_back_emf_makes_no_torque(void)
@@ -1119,6 +1137,7 @@ int main(void)
     RUN_TEST(test_accuracy_against_long_double);
     RUN_TEST(test_speed_is_told);
     RUN_TEST(test_machine_c_over_a_turn);
+    RUN_TEST(test_either_way_along_the_axis_the_nearer);
     RUN_TEST(test_least_iq_of_one_slope);
     return UNITY_END();
 }
