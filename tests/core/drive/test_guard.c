@@ -44,7 +44,7 @@ static void test_a_vector_is_shortened_and_keeps_its_direction(void)
 
 static void test_what_is_no_number_becomes_nothing(void)
 {
-    static const float bad[] = {NAN, INFINITY, -INFINITY, 1e20f};
+    static const float bad[] = {NAN, INFINITY, -INFINITY, 1e20f, 1e17f};
     const hci_currents_dq whole = {3.0f, 4.0f};
     for (size_t k = 0; k < sizeof bad / sizeof *bad; ++k) {
         const hci_currents_dq d = hci_guard_dq((hci_currents_dq){bad[k], 1.0f}, 5.0f);

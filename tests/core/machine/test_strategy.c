@@ -801,6 +801,18 @@ static void test_either_way_along_the_axis_the_nearer(void)
     }
 }
 
+/* Where nothing makes a torque no current flows. */
+static void test_no_machine_no_current(void)
+{
+    static const hci_strategy ALL[] = {HCI_STRATEGY_ID0, HCI_STRATEGY_CANCEL, HCI_STRATEGY_MTPA};
+    const hci_machine_point p = {{0.0, 0.0}, {0.0, 0.0, 0.0}, 0.0};
+    for (int k = 0; k < 3; ++k) {
+        double x[2] = {7.0, 7.0};
+        TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, hci_strategy_current(&p, ALL[k], 1.0, NULL, x, NULL));
+        TEST_ASSERT_TRUE(x[0] == 0.0 && x[1] == 0.0);
+    }
+}
+
 /* Slopes along the back-EMF alone, with the least torque at 1 − e²/2h: none of 0, though rounding leaves a
  * back-EMF of 1e-16 beside it, where nothing bounds the current. */
 static void test_rounding_beside_the_back_emf_makes_no_torque(void)
@@ -1138,6 +1150,7 @@ int main(void)
     RUN_TEST(test_speed_is_told);
     RUN_TEST(test_machine_c_over_a_turn);
     RUN_TEST(test_either_way_along_the_axis_the_nearer);
+    RUN_TEST(test_no_machine_no_current);
     RUN_TEST(test_least_iq_of_one_slope);
     return UNITY_END();
 }
