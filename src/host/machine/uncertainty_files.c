@@ -167,12 +167,14 @@ static hci_status word_of(const hci_csv *csv, size_t row, const char *const *wor
 }
 
 /* Torques in N·m that stand in the file where they are above 0. */
-static const struct {
-    const char *name;
-    size_t place; /* in hci_machine_origin */
-} OPTIONAL[] = {{"turning_load", offsetof(hci_machine_origin, turning_load_Nm)},
-                {"sensor_zero", offsetof(hci_machine_origin, sensor_zero_Nm)},
-                {"left_orders", offsetof(hci_machine_origin, left_Nm)}};
+enum { OPTIONAL = 3 };
+static const char *const OPTIONAL_NAME[OPTIONAL] = {"turning_load", "sensor_zero", "left_orders"};
+
+static double *optional_of(hci_machine_origin *origin, size_t k)
+{
+    double *const all[OPTIONAL] = {&origin->turning_load_Nm, &origin->sensor_zero_Nm, &origin->left_Nm};
+    return all[k];
+}
 
 static hci_status origin_row(const hci_csv *csv, size_t row, hci_machine_origin *origin, hci_note *note)
 {
@@ -190,9 +192,9 @@ static hci_status origin_row(const hci_csv *csv, size_t row, hci_machine_origin 
         origin->constant_is_declared = true;
         return word_of(csv, row, CONSTANTS, sizeof word, word, note);
     }
-    for (size_t k = 0; k < sizeof OPTIONAL / sizeof *OPTIONAL; ++k)
-        if (strcmp(name, OPTIONAL[k].name) == 0)
-            return cell_read(csv, "value", row, (double *)((char *)origin + OPTIONAL[k].place), note);
+    for (size_t k = 0; k < OPTIONAL; ++k)
+        if (strcmp(name, OPTIONAL_NAME[k]) == 0)
+            return cell_read(csv, "value", row, optional_of(origin, k), note);
     return hci_csv_error(csv, "name", row, note,
                          "verdict, search, unexplained_ripple, torque_constant, turning_load, sensor_zero or "
                          "left_orders",
@@ -293,10 +295,11 @@ static hci_status origin_write(hci_output *out, const hci_machine_origin *origin
                     origin->search);
     cell_write(out, origin->unexplained_Nm, ',');
     hci_output_text(out, "Nm\n%s", origin->constant_is_declared ? "torque_constant,declared,\n" : "");
-    for (size_t k = 0; k < sizeof OPTIONAL / sizeof *OPTIONAL; ++k) {
-        const double value_Nm = *(const double *)((const char *)origin + OPTIONAL[k].place);
+    hci_machine_origin of = *origin;
+    for (size_t k = 0; k < OPTIONAL; ++k) {
+        const double value_Nm = *optional_of(&of, k);
         if (!(value_Nm > 0.0)) continue;
-        hci_output_text(out, "%s,", OPTIONAL[k].name);
+        hci_output_text(out, "%s,", OPTIONAL_NAME[k]);
         cell_write(out, value_Nm, ',');
         hci_output_text(out, "Nm\n");
     }
