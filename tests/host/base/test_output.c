@@ -121,6 +121,17 @@ static void test_files_have_the_mode_of_ordinary_files(void)
     TEST_ASSERT_EQUAL_HEX(0640, status.st_mode & 0777);
 }
 
+static void test_folders_have_the_mode_of_ordinary_folders(void)
+{
+    struct stat status;
+    const mode_t old = umask(027);
+    const hci_status committed = hci_output_commit(two_files(files_path("m/n")), NULL);
+    umask(old);
+    TEST_ASSERT_EQUAL(HCI_OK, committed);
+    TEST_ASSERT_EQUAL(0, stat(files_path("m"), &status));
+    TEST_ASSERT_EQUAL_HEX(0750, status.st_mode & 07777);
+}
+
 static void test_numbers_come_with_their_separator(void)
 {
     hci_output *output = open_set(files_root);
@@ -611,6 +622,7 @@ int main(void)
     RUN_TEST(test_folders_are_made_with_their_parents);
     RUN_TEST(test_a_relative_folder_is_below_the_current_one);
     RUN_TEST(test_files_have_the_mode_of_ordinary_files);
+    RUN_TEST(test_folders_have_the_mode_of_ordinary_folders);
     RUN_TEST(test_numbers_come_with_their_separator);
     RUN_TEST(test_checksums_are_those_of_cksum);
     RUN_TEST(test_an_empty_set_leaves_its_folder);
