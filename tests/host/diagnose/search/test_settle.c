@@ -1,9 +1,8 @@
 /* Whether what is left is noise. */
 #include "host/diagnose/search/settle.h"
 
-#include "host/diagnose/search/noise_left.h"
-
 #include "host/diagnose/search/attribute.h"
+#include "host/diagnose/search/noise_left.h"
 #include "support/searching.h"
 
 void setUp(void)
