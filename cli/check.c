@@ -205,6 +205,7 @@ static void show_zero(const hci_check *c)
     const bool is_of_drive = isfinite(c->drive_zero_rad);
     const double zero_rad = is_of_drive ? c->drive_zero_rad : c->zero_rad,
                  off = -degrees(remainder(zero_rad, 2.0 * HCI_PI)),
+                 whole = remainder(degrees(c->given_zero_rad) - off, 360.0),
                  error = fmax(0.1, degrees(is_of_drive ? c->drive_zero_reach_rad : c->zero_reach_rad));
     for (size_t k = 0; k < c->findings; ++k)
         if (strcmp(c->finding[k].slip, "run_angle_offset") == 0) return;
@@ -214,12 +215,12 @@ static void show_zero(const hci_check *c)
                 "at 0 "
                 "(by the torques within %.0f, and a drive that wants such an i_d makes them as well): "
                 "--angle-offset %.1f takes it out\n",
-                off, error, -off);
+                off, error, whole);
     else if (c->zero_is_told)
         cli_say("  angle zero   %.1f \xC2\xB1 %.1f degrees electrical off in the recordings: --angle-offset "
                 "%.1f takes it "
                 "out\n",
-                off, error, -off);
+                off, error, whole);
     else
         cli_say("  angle zero   %.1f \xC2\xB1 %.1f degrees electrical off would explain the torques, and so "
                 "would a saliency with the saturation that it has: runs with i_d of both signs at two "

@@ -91,6 +91,10 @@ check "the zero of the drive is not in the commands" grep -q 'diagnose .*--angle
 alike 15
 run 0 check motor $logs
 says '^consistent' '^  angle zero   15\.[0-9] degrees electrical off in the recordings, where the drive keeps its i_d at 0 .*--angle-offset -15\.[0-9] takes it out'
+run 0 check motor $logs --angle-offset -30
+says '^  angle zero   -15\.[0-9] degrees electrical off .*--angle-offset -15\.[0-9] takes it out'
+run 1 check motor $logs --angle-offset 100
+says 'recordings is 115\.[0-9] degrees off .* give --angle-offset -15\.[0-9] in place of 100'
 run 0 tune $logs --pole-pairs 4 --flux 0.09 --rated-current 7.07 --torque 2 -o beside
 says '^  - The phase currents lie 15\.[0-9] degrees beside the i_q of this angle: .*--angle-offset -15\.[0-9] is right'
 alike 0

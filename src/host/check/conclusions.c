@@ -270,6 +270,7 @@ static void conclude_zero(const check_posterior *p, hci_check *check)
     const check_run_zero zero = hci_check_run_zero(p->data, &declared);
     const double error_rad = hci_check_zero_error(p->data, &declared, zero);
     const bool is_measured = zero.is_known && !zero.is_of_drive;
+    check->given_zero_rad = hci_check_given_zero_rad(p->data);
     check->zero_rad = is_measured ? zero.zero_rad : (double)NAN;
     check->zero_error_rad = is_measured ? zero.std_error_rad : (double)NAN;
     check->zero_reach_rad = is_measured ? error_rad : (double)NAN;

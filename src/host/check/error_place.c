@@ -266,16 +266,25 @@ static void say_error(const check_data *data, const check_interpretation *as, ch
              error);
 }
 
+/* "--angle-offset -31.0", and of an offset that was given already the one that takes its place. */
+static void say_remedy(const check_data *data, double degrees, char text[64])
+{
+    const double before = hci_check_given_zero_rad(data) * 180.0 / HCI_PI;
+    snprintf(text, 64, before != 0.0 ? "--angle-offset %.1f in place of %.6g" : "--angle-offset %.1f",
+             remainder(before - degrees, 360.0) + 0.0, before);
+}
+
 /* "the electrical zero of the angle in the recordings is 31.0 ± 0.4 degrees off" */
 static void say_offset(const check_data *data, const check_interpretation *as, hci_check_finding *finding)
 {
     const check_run_zero zero = hci_check_run_zero(data, as);
     const double degrees = -remainder(zero.zero_rad, 2.0 * HCI_PI) * 180.0 / HCI_PI;
-    char error[120];
+    char error[120], remedy[64];
     say_error(data, as, zero, error);
+    say_remedy(data, degrees, remedy);
     snprintf(finding->words, sizeof finding->words,
-             "the electrical zero of the angle in the recordings is %.1f%s: give --angle-offset %.1f%s",
-             degrees, error, -degrees, other_phases(degrees, zero.std_error_rad * 180.0 / HCI_PI));
+             "the electrical zero of the angle in the recordings is %.1f%s: give %s%s", degrees, error,
+             remedy, other_phases(degrees, zero.std_error_rad * 180.0 / HCI_PI));
     snprintf(finding->should_be, sizeof finding->should_be, "the electrical angle %s %.1f degrees",
              degrees > 0.0 ? "-" : "+", fabs(degrees));
 }

@@ -248,6 +248,25 @@ static void read_letter(name_words *w, const hci_unit *unit)
     if (first == 'm' && is_in(unit, "N*m")) w->kind[0] = TORQUE;
 }
 
+static bool says_quantity(const name_words *w)
+{
+    for (size_t k = 0; k < w->count; ++k)
+        if (w->kind[k] < QUANTITIES) return true;
+    return false;
+}
+
+/* "Phase A (A)": of a phase whose letter is named the unit says the quantity. */
+static void read_phase(name_words *w, const hci_unit *unit)
+{
+    const bool is_current = is_in(unit, "A"), is_voltage = is_in(unit, "V");
+    bool is_named = false;
+    for (size_t k = 0; k < w->count; ++k)
+        is_named = is_named || w->kind[k] == LETTER;
+    if (says_quantity(w) || !is_named || !(is_current || is_voltage)) return;
+    for (size_t k = 0; k < w->count; ++k)
+        if (w->kind[k] == PHASE) w->kind[k] = is_current ? CURRENT : VOLTAGE;
+}
+
 /* ---- what the words say together ---- */
 
 #define SAID(column, unit, meaning)                                                                          \
@@ -457,6 +476,7 @@ static const hci_alias *say(const char *name, size_t length, const hci_unit *uni
     for (size_t k = 0; k < w.count; ++k) /* "Zeit 1" */
         if (w.kind[k] == LETTER && has(&w, TIME)) w.kind[k] = NUMBER;
     read_letter(&w, unit);
+    read_phase(&w, unit);
     if (!is_sound(&w) || (unit == NULL && is_short(&w))) return NULL;
     const hci_alias *said = quantity_of(&w, unit);
     return said != NULL && is_fitting(said, unit) ? said : NULL;

@@ -21,7 +21,7 @@ enum {
     HCI_CHECK_MOST_ALTERNATIVES = 8, /* slips that mend the same */
     HCI_CHECK_MOST_UNTOLD = 64,      /* slips that leave no trace */
     HCI_CHECK_TEXT = 128,            /* bytes of a text */
-    HCI_CHECK_WORDS = 256,           /* bytes of the words of a slip */
+    HCI_CHECK_WORDS = 320,           /* bytes of the words of a slip */
     HCI_CHECK_PATH = 512             /* bytes of a path */
 };
 
@@ -96,6 +96,7 @@ typedef struct {
     double probability_as_declared;                     /* that nothing is read wrongly */
     double zero_rad, zero_error_rad; /* electrical, to be added to the angle of the recordings so that its
                                       * zero is that of the tables; NAN: they do not tell it */
+    double given_zero_rad;           /* what the user has added to it already, electrical; 0: nothing */
     double zero_reach_rad; /* zero_error_rad with what a saliency beside it leaves open, as it is said */
     bool zero_is_told; /* and no saliency, known or not, explains the torques as well at the zero as it is */
     double drive_zero_rad,

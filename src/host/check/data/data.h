@@ -107,11 +107,12 @@ typedef struct {
     check_turn_ripple ripple; /* taken the first time it is asked for */
     double *theta;            /* recorded angle; NULL: none */
     double *torque; /* torque in N·m; where the shaft was held, −i_q in A: what balances the cogging torque */
-    bool is_held;        /* torque 0 throughout, and i_d, i_q */
-    bool turns_steadily; /* held by no one, but i_q turns the shaft steadily: it knows the orders of the
-                            cogging torque, and its size as far as the speed was held */
-    bool is_electrical;  /* the angle is theta_e */
-    bool dq_is_steady;   /* i_d, i_q are more than noise about 0 */
+    bool is_held;          /* torque 0 throughout, and i_d, i_q */
+    bool turns_steadily;   /* held by no one, but i_q turns the shaft steadily: it knows the orders of the
+                              cogging torque, and its size as far as the speed was held */
+    bool is_electrical;    /* the angle is theta_e */
+    double given_zero_rad; /* electrical, that the user adds to the angle; 0: none */
+    bool dq_is_steady;     /* i_d, i_q are more than noise about 0 */
     bool has_abc, has_dq, has_voltage, has_speed, has_torque;
     bool has_phase_voltage, has_dq_voltage; /* one of them where has_voltage */
     bool has_line_voltage;                  /* those of the phases are made of it */
@@ -180,6 +181,9 @@ hci_status hci_check_machine_read(const char *folder, check_data *data, hci_note
 hci_status hci_check_runs_read(const char *const *path, size_t count, const hci_run_options *reading,
                                check_data *data, hci_note *remark, hci_note *note);
 void hci_check_data_release(check_data *data);
+
+/* The zero that the user has given to the angles of the recordings, electrical; 0: none. */
+double hci_check_given_zero_rad(const check_data *data);
 
 /* The frame of a scale, whatever its sign; NULL where the run has no angle. */
 const check_frame *hci_check_frame_of(const check_run *run, double scale);

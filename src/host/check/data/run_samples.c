@@ -61,10 +61,11 @@ static hci_status read_angles(check_run *run, check_samples *s)
 }
 
 /* The zero that the user gives, of an angle that has been read. */
-static void turn_angle(const hci_csv *csv, double pole_pairs, const check_run *run, check_samples *s)
+static void turn_angle(const hci_csv *csv, double pole_pairs, check_run *run, check_samples *s)
 {
     double *theta = s->columns.value[run->is_electrical ? HCI_RUN_THETA_E : HCI_RUN_THETA_M];
     if (!csv->has_angle_offset || theta == NULL) return;
+    run->given_zero_rad = csv->angle_offset_rad;
     for (size_t k = 0; k < s->count; ++k)
         theta[k] += csv->angle_offset_rad / (run->is_electrical ? 1.0 : pole_pairs);
     hci_note_add(s->columns.remark, "%.4g degrees electrical are added to the angle",

@@ -302,6 +302,14 @@ hci_status hci_check_runs_read(const char *const *path, size_t count, const hci_
     return status;
 }
 
+double hci_check_given_zero_rad(const check_data *data)
+{
+    double given_rad = 0.0;
+    for (size_t k = 0; k < data->runs && given_rad == 0.0; ++k)
+        given_rad = data->run[k].given_zero_rad;
+    return given_rad;
+}
+
 void hci_check_data_release(check_data *data)
 {
     for (size_t k = 0; k < data->runs; ++k) {
