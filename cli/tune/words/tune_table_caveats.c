@@ -309,16 +309,42 @@ static void append_of_ratings(cli_tuning *t)
             cli_tune_constant_option(t));
 }
 
+/* What a drive would correct, in the model and not told from something else; NULL: nothing. */
+static const char *open_correction(const cli_tuning *t)
+{
+    for (size_t k = 0; k < t->diagnosis.findings; ++k) {
+        const hci_finding *f = &t->diagnosis.finding[k];
+        const hci_effect_type *type = hci_effect_type_find(f->effect);
+        if (f->verdict != HCI_FINDING_AMBIGUOUS || !type || !type->correction) continue;
+        for (size_t j = 0; j < t->found.list.count; ++j)
+            if (t->found.list.effect[j].type == type) return hci_finding_title(f->effect);
+    }
+    return NULL;
+}
+
+static void append_of_corrections(cli_tuning *t)
+{
+    const char *open = open_correction(t);
+    if (open)
+        cli_tune_caveat(
+            t,
+            "The table hangs on sensors that read as was found, and of %s that is not told from other "
+            "effects. Where the sensors of the drive are those of the logs and read so, correct before: %s; "
+            "where they read right, another torque is made",
+            open, t->solution.corrections);
+    else
+        cli_tune_caveat(
+            t, "The sensors of the drive, where they are those of the logs, have to be corrected before: %s",
+            t->solution.corrections);
+    append_of_gain(t);
+}
+
 /* What the table needs of the drive, and does not do. */
 static void append_of_table(cli_tuning *t)
 {
     append_of_logs(t);
     append_of_zeros(t);
-    if (t->is_solved && *t->solution.corrections)
-        cli_tune_caveat(
-            t, "The sensors of the drive, where they are those of the logs, have to be corrected before: %s",
-            t->solution.corrections);
-    if (t->is_solved && *t->solution.corrections) append_of_gain(t);
+    if (t->is_solved && *t->solution.corrections) append_of_corrections(t);
     if (t->is_solved) append_of_early(t);
     append_of_doubt(t);
     append_of_miss(t);
