@@ -425,7 +425,8 @@ static int next_percent(const cli_tuning *t, int percent)
 /* Why a torque is less than the chosen one. */
 static void say_less(const wanted_torque *chosen, int percent, bool is_reached, char *why, size_t size)
 {
-    snprintf(why, size, "%d %% of the %.4g N·m that is %s; %s", percent, chosen->mean_Nm, chosen->why,
+    const int what = (int)strcspn(chosen->why, ";");
+    snprintf(why, size, "%d %% of the %.4g N·m that is %.*s: %s", percent, chosen->mean_Nm, what, chosen->why,
              is_reached ? "at more the ripple takes currents to where none were recorded"
                         : "more the model does not make at every angle, since beyond what was recorded its "
                           "torque falls with more current");

@@ -73,7 +73,7 @@ less() {
     check "$name: the steps without the first try" [ "$(grep -c 'hci-solve solve' "$name/commands.sh")" -eq 1 ]
 }
 less bounded '0.3 * q * q / (q * q + 8100)' 66 'takes currents to where'
-less falling '0.25 * q * q / 25600' '6[45]' 'does not make at every'
+less falling '0.25 * q * q / 25600' '6[45]' 'make at every angle, since'
 run 1 tune falling0.csv fallingb.csv falling80.csv falling160.csv --pole-pairs 4 --volt-per-krpm 46 --slots 48 --rated-current 160 --torque 64 -o asked
 says '^the model does not reach the torque: Nothing was solved'
 

@@ -105,7 +105,7 @@ gained gained2.csv 2 1 3
 gained gained4.csv 4 1 4
 gains='--pole-pairs 5 --torque-constant 0.3 --slots 12 --rated-current 5'
 run 1 tune gained0.csv gainedb.csv gained4.csv $gains -o gained
-says 'The table hangs on sensors that read as was found, and of gains of the current sensors that is not told .* where they read right, another torque is made'
+says 'The table hangs on what was found of the sensors, of which gains of the current sensors cannot be told .* where they read right, another torque is made'
 run 0 tune gained0.csv gainedb.csv gained2.csv gained4.csv $gains -o gained2
 says 'have to be corrected before: divide i_a by 1\.009'
 finish

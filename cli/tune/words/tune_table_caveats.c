@@ -328,7 +328,7 @@ static void append_of_corrections(cli_tuning *t)
     if (open)
         cli_tune_caveat(
             t,
-            "The table hangs on sensors that read as was found, and of %s that is not told from other "
+            "The table hangs on what was found of the sensors, of which %s cannot be told from other "
             "effects. Where the sensors of the drive are those of the logs and read so, correct before: %s; "
             "where they read right, another torque is made",
             open, t->solution.corrections);

@@ -1,36 +1,18 @@
 /* What tells noise from what is none: its sums by hand, and each bound from both sides. */
 #include "host/diagnose/search/noise_left.c"
 
-#include "support/reference.h"
+#include "support/one_segment.h"
 #include "unity.h"
 
-enum { N = 400 };
-
 static uint64_t seed;
-static double whitened[N], residual[N];
-static hci_binned_sample sample[N];
-static hci_segment segment;
-static hci_run run;
-static bool use = true;
-static hci_binned_samples samples;
-static hci_regression regression;
-static hci_search search;
+static double whitened[N];
 
 void setUp(void)
 {
     seed = 3;
-    memset(sample, 0, sizeof sample);
-    for (size_t k = 0; k < N; ++k) {
+    for (size_t k = 0; k < N; ++k)
         whitened[k] = ref_normal(&seed);
-        residual[k] = ref_normal(&seed);
-        sample[k].count = 1.0;
-    }
-    segment = (hci_segment){.count = N, .timed = true};
-    samples = (hci_binned_samples){
-        .sample = sample, .count = N, .segment = &segment, .segment_count = 1, .run_count = 1};
-    run = (hci_run){.torque_source = HCI_TORQUE_MEASURED};
-    regression = (hci_regression){.samples = &samples, .runs = &run, .use = &use};
-    search = (hci_search){.regression = &regression, .residual_Nm = residual};
+    one_segment_start(&seed);
 }
 
 void tearDown(void)
