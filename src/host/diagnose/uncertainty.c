@@ -126,7 +126,7 @@ static hci_status parts_add(finding *f, hci_note *note)
         return hci_note_memory(note, NULL, "what recordings leave open");
     f->group = f->run + most;
     f->parts.watch = e->watch;
-    const hci_status status = hci_run_parts_each(e, parts, part_add, f, note);
+    const hci_status status = hci_run_parts_each(e, parts, false, part_add, f, note);
     return status ? status : runs_join(f, note);
 }
 

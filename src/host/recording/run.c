@@ -7,12 +7,13 @@
 
 #include "hci/host/csv/csv.h"
 #include "hci/math/harmonic.h"
+#include "host/angle/between_steps.h"
+#include "host/angle/unwrap.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
 #include "host/csv/table.h"
 #include "host/numeric/derivative.h"
 #include "host/numeric/statistics.h"
-#include "host/numeric/unwrap.h"
 #include "host/recording/bare_angle.h"
 #include "host/recording/clock.h"
 #include "host/recording/computed_torque.h"
@@ -126,6 +127,21 @@ static hci_status mend_clock(reader *r, hci_angle_path path)
     if (kind != HCI_CLOCK_FOREIGN || !spare) return HCI_OK;
     hci_note_add(&run->remark, "angle and time were not taken at the same instants: the time is not used");
     drop_time(run);
+    return HCI_OK;
+}
+
+/* Between the steps of an encoder the shaft goes on along the time. */
+static hci_status follow_angle(reader *r, hci_angle_path path)
+{
+    hci_run *run = r->run;
+    if (run->time_s == NULL || run->theta_m_rad == NULL || path == HCI_ANGLE_SCATTERED) return HCI_OK;
+    const double step_rad = hci_angle_between_steps(run->theta_m_rad, run->time_s, run->count);
+    if (step_rad < 0.0) return memory_error(r);
+    if (step_rad > 0.0)
+        hci_note_add(
+            &run->remark,
+            "the angle is read in steps of %.3g degrees: between them it is taken to go on along the time",
+            step_rad * 180.0 / HCI_PI);
     return HCI_OK;
 }
 
@@ -676,6 +692,7 @@ static hci_status read_all(reader *r)
     if (!status) turn_angle(r);
     if (!status) status = replace_angle(r);
     if (!status) status = mend_clock(r, path);
+    if (!status) status = follow_angle(r, path);
     if (!status) status = complete_speed(r, path);
     if (!status) status = read_currents(r);
     if (!status) status = read_voltages(r);

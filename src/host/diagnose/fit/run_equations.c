@@ -52,18 +52,18 @@ static hci_status group_add(void *context, const hci_regression *part, size_t ru
 hci_status hci_run_equations_make(const hci_regression *e, const hci_candidates *candidates, size_t few,
                                   hci_run_equations *x, hci_note *note)
 {
-    const size_t runs = hci_regression_runs_in_use(e);
+    const size_t runs = hci_regression_runs_in_use(e), parts = hci_run_parts(e, few);
     hci_candidates list = {0};
     memset(x, 0, sizeof *x);
-    x->parts = hci_run_parts(e, few);
     hci_status status = hci_candidates_copy(candidates, &list, note);
     if (status) return status;
-    x->run = hci_memory_new(runs * x->parts + 1, sizeof *x->run);
+    x->run = hci_memory_new(runs * parts + 1, sizeof *x->run);
     x->precision = hci_memory_new(hci_candidates_terms_in(&list) + 1, sizeof *x->precision);
     if (!x->run || !x->precision) status = hci_note_memory(note, NULL, "leaving runs out");
     x->groups.group = x->run;
     if (!status) precision_take(&list, x->precision);
-    if (!status) status = hci_run_parts_each(e, x->parts, group_add, &(grouping){&list, x}, note);
+    if (!status)
+        status = hci_run_parts_each(e, parts, few > HCI_LEAST_GROUPS, group_add, &(grouping){&list, x}, note);
     hci_candidates_release(&list);
     if (status) hci_run_equations_release(x);
     return status;

@@ -13,13 +13,13 @@
 /* Start with {0}. */
 typedef struct {
     hci_groups groups;         /* the runs in use in their order, or parts of them */
-    size_t parts;              /* of each run */
     hci_normal_equations *run; /* what groups stands for */
     double *precision; /* of each column: one over the variance that is expected of its value; 0: any */
 } hci_run_equations;
 
 /* candidates: those that are in are the columns; what is expected of their values is in `precision` only. On
- * failure *equations is empty. few: as of hci_run_parts. HCI_ERROR_MEMORY. O(samples·columns²). */
+ * failure *equations is empty. few: as of hci_run_parts; where that is
+ * more than HCI_LEAST_GROUPS, runs that are not alone stay whole. HCI_ERROR_MEMORY. O(samples·columns²). */
 hci_status hci_run_equations_make(const hci_regression *regression, const hci_candidates *candidates,
                                   size_t few, hci_run_equations *equations, hci_note *note);
 void hci_run_equations_release(hci_run_equations *equations);

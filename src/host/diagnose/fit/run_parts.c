@@ -25,17 +25,24 @@ static bool one_is_alone(const hci_regression *e)
     return alone;
 }
 
-#define ALIKE 0.1 /* of the largest current, by which those of two runs of one kind differ at most */
+#define ALIKE      0.1 /* of the largest current, by which those of two runs of one kind differ at most */
+#define ABOUT_FAST 1.5 /* times another speed, that shows of friction what that does */
 
-/* Whether two runs turn the same way at the same load. */
-static bool is_repeated(const hci_run_statistics *a, const hci_run_statistics *b, double most_A)
+/* Whether two runs turn the same way and about as fast. */
+static bool is_as_fast(double a, double b)
 {
-    const bool same_way = a->mean_speed_rad_per_s * b->mean_speed_rad_per_s >= 0.0;
-    return same_way && hypot(a->mean_id_A - b->mean_id_A, a->mean_iq_A - b->mean_iq_A) < ALIKE * most_A &&
-           fabs(a->current_A - b->current_A) < ALIKE * most_A;
+    const double slow = fmin(fabs(a), fabs(b)), fast = fmax(fabs(a), fabs(b));
+    return a * b >= 0.0 && fast <= ABOUT_FAST * slow;
 }
 
-bool hci_runs_all_differ(const hci_regression *e)
+static bool is_repeated(const hci_run_statistics *a, const hci_run_statistics *b, double most_A)
+{
+    return is_as_fast(a->mean_speed_rad_per_s, b->mean_speed_rad_per_s) &&
+           hypot(a->mean_id_A - b->mean_id_A, a->mean_iq_A - b->mean_iq_A) <= ALIKE * most_A &&
+           fabs(a->current_A - b->current_A) <= ALIKE * most_A;
+}
+
+bool hci_run_is_alone(const hci_regression *e, size_t run)
 {
     const hci_run_statistics *x = e->samples->statistics;
     double most_A = 0.0;
@@ -44,8 +51,7 @@ bool hci_runs_all_differ(const hci_regression *e)
         if (e->use[r]) most_A = fmax(most_A, x[r].current_A);
     }
     for (size_t r = 0; r < e->samples->run_count; ++r)
-        for (size_t k = 0; e->use[r] && k < r; ++k)
-            if (e->use[k] && is_repeated(&x[r], &x[k], most_A)) return false;
+        if (e->use[r] && r != run && is_repeated(&x[r], &x[run], most_A)) return false;
     return true;
 }
 
@@ -71,7 +77,7 @@ static void segments_cut(const hci_binned_samples *samples, size_t run, size_t p
     }
 }
 
-hci_status hci_run_parts_each(const hci_regression *e, size_t parts,
+hci_status hci_run_parts_each(const hci_regression *e, size_t parts, bool only_alone,
                               hci_status (*visit)(void *context, const hci_regression *part, size_t run,
                                                   hci_note *note),
                               void *context, hci_note *note)
@@ -83,11 +89,13 @@ hci_status hci_run_parts_each(const hci_regression *e, size_t parts,
     regression.samples = &samples;
     regression.known = NULL; /* those are of whole runs */
     regression.columns = NULL;
-    for (size_t r = 0; r < e->samples->run_count; ++r)
-        for (size_t part = 0; e->use[r] && part < parts && !status; ++part) {
-            segments_cut(e->samples, r, part, parts, samples.segment);
+    for (size_t r = 0; r < e->samples->run_count; ++r) {
+        const size_t cut = e->use[r] && only_alone && !hci_run_is_alone(e, r) ? 1 : parts;
+        for (size_t part = 0; e->use[r] && part < cut && !status; ++part) {
+            segments_cut(e->samples, r, part, cut, samples.segment);
             status = visit(context, &regression, r, note);
         }
+    }
     hci_memory_free(samples.segment);
     return status;
 }

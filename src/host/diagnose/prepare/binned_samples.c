@@ -384,7 +384,16 @@ static bool alike_segments(const reduction *x, const hci_turn *turns, size_t cou
     return true;
 }
 
-/* Steady turns become a mean, what is between them stays as it is; a short rest behind them is left. */
+/* Whether behind the turns of a mean there is but a part of one more that is like them. */
+static bool is_part_of_next(const reduction *x, const hci_turn *last, size_t rest)
+{
+    hci_turn part = last[1];
+    part.whole = true;
+    return part.count == rest && hci_turns_alike(x->run, x->statistics, last, &part);
+}
+
+/* Steady turns become a mean, what is between them stays as it is; a short rest behind them is left, and one
+ * that tells nothing else. */
 static bool turns_reduce(const reduction *x, const hci_turn *turns, size_t count)
 {
     size_t open = 0; /* first sample that is not in a segment yet */
@@ -396,7 +405,9 @@ static bool turns_reduce(const reduction *x, const hci_turn *turns, size_t count
         open = behind(&turns[next - 1]);
     }
     const size_t rest = x->run->count - open;
-    return (open > 0 && rest <= HCI_LONGEST_SEGMENT) || open_segments(x, open, rest);
+    const bool is_left =
+        open > 0 && (rest <= HCI_LONGEST_SEGMENT || is_part_of_next(x, &turns[count - 2], rest));
+    return is_left || open_segments(x, open, rest);
 }
 
 /* Turns of a torque that was measured along time, all of them alike but for what is cut off at the ends. */

@@ -15,6 +15,7 @@
 #include "host/diagnose/search/coenergy.h"
 #include "host/diagnose/search/companions.h"
 #include "host/diagnose/search/no_load.h"
+#include "host/diagnose/search/noise_left.h"
 #include "host/diagnose/search/phases.h"
 #include "host/diagnose/search/rivals.h"
 #include "host/diagnose/search/rounds.h"
@@ -303,6 +304,7 @@ static hci_status certain_stays(hci_search *s, hci_attribution *a, const bool *n
 
 /* ---- saturated iron ---- */
 
+#define COARSE      2.0  /* times the resolution: noise that hides more than a model is asked for */
 #define LITTLE_LEFT 0.25 /* of the torque that is not explained without the iron */
 
 /* Single terms of the iron may say nothing of runs left out where all of them together do. model: the one
@@ -325,11 +327,23 @@ static hci_status whole_try(hci_search *s, hci_fitted_model *model, hci_fitted_m
     return hci_search_renew(s, known, note);
 }
 
-/* Keeps the model with single terms, which may say of runs left out what the whole co-energy does not. */
+/* Whether nothing but noise is left. */
+static hci_status is_all(hci_search *s, hci_fitted_model *model, bool *all, hci_note *note)
+{
+    const hci_status status = hci_search_is_noise(s, &model->candidates, all, note);
+    return status ? status : hci_search_renew(s, model, note);
+}
+
+/* Where single terms leave nothing but coarse noise, the recordings ask for no more. Keeps the model with
+ * these, which may say of runs left out what the whole co-energy does not. */
 static hci_status coenergy_try(hci_search *s, hci_fitted_model *model, hci_note *note)
 {
     hci_fitted_model single = {0};
-    hci_status status = hci_fitted_model_copy(model, &single, note);
+    hci_status status = HCI_OK;
+    bool asks_no_more = false;
+    if (hci_search_noise_rms(s) > COARSE * s->resolution_Nm) status = is_all(s, model, &asks_no_more, note);
+    if (status || asks_no_more) return status;
+    status = hci_fitted_model_copy(model, &single, note);
     if (!status) status = hci_search_coenergy(s, model, note);
     if (!status && s->whole_coenergy) hci_fitted_model_replace(&s->single, &single);
     hci_fitted_model_release(&single);

@@ -7,6 +7,7 @@
 #include "host/base/memory.h"
 #include "host/diagnose/candidates/coenergy_terms.h"
 #include "host/diagnose/candidates/empirical_term.h"
+#include "host/diagnose/candidates/shown_orders.h"
 #include "host/diagnose/fit/linearise.h"
 #include "host/numeric/left_out.h"
 
@@ -15,7 +16,9 @@ enum {
     LOW_POWER = 4,
     HIGH_POWER = 6,
     MOST_ORDER = 90,
-    PASSES = 4, /* over the parts, at most */
+    LEAST_ORDER = 24,
+    OF_IRON = 6, /* orders that phases which are alike make */
+    PASSES = 4,  /* over the parts, at most */
     SINGLE_POWERS = 3,
     PARTS = SINGLE_POWERS + HCI_MOST_TYPES
 };
@@ -27,6 +30,7 @@ static const double WIDTHS[] = {1.0, 3.0, 10.0, 30.0, 100.0};
  * the mean logarithm may rise by this much, a factor of two in the rms. */
 #define SELECTED 1.4
 #define LEAST    0.15 /* of the resolution: a torque that is large enough for a name */
+#define SHOWN    1.5  /* of the resolution, as an amplitude: no order above that has more is looked for */
 #define NO_WORSE 0.01 /* of the mean logarithm of the squares */
 #define FLOOR    0.05 /* mean square of a run, in units of its noise, below which it is as good as can be */
 
@@ -295,7 +299,7 @@ static void apply(comparison *c, const choice *how)
 }
 
 /* The highest order that the samples of every run in use tell, MOST_ORDER at the most. */
-static int highest_order(const hci_regression *e)
+static int resolved_order(const hci_regression *e)
 {
     double order = MOST_ORDER;
     for (const hci_segment *x = NULL; (x = hci_regression_next(e, x)) != NULL;) {
@@ -307,10 +311,19 @@ static int highest_order(const hci_regression *e)
     return (int)order;
 }
 
+/* Of them one above those that a run shows. */
+static int highest_order(const hci_search *s)
+{
+    const int resolved = resolved_order(s->regression);
+    const int shown =
+        hci_highest_order_shown(s->regression, OF_IRON, resolved, SHOWN * s->resolution_Nm) + OF_IRON;
+    return (int)fmin(resolved, fmax(LEAST_ORDER, shown));
+}
+
 static hci_status comparison_make(comparison *c, hci_note *note)
 {
     hci_regression *e = c->search->regression;
-    const hci_effect_coenergy_series series = {e->machine->pole_pairs, HIGH_POWER, highest_order(e),
+    const hci_effect_coenergy_series series = {e->machine->pole_pairs, HIGH_POWER, highest_order(c->search),
                                                c->known->candidates.reference_current_A, false};
     hci_status status = hci_coenergy_terms(&c->known->candidates, &series, &c->all, note);
     if (status) return status;

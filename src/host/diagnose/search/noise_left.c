@@ -10,7 +10,8 @@
 #define SPREAD       4.0  /* … give or take a deviation, of which so many are still noise */
 #define FOLLOWS      0.1 /* share of a residual that the rate of the modelled torque describes, which noise … */
 #define LATE         1.0  /* … and an acceleration that is taken between samples do not, in samples */
-#define OUTLYING     8.0  /* times the noise */
+#define OUTLYING     6.0  /* times the noise */
+#define OF_SLOPES    8.0  /* the same where that is of a slope, and has not the same size all along */
 #define FEW          5e-4 /* share of outliers that may be left out */
 #define LEAST_BLOCKS 50.0 /* to tell from how uneven errors are */
 
@@ -38,13 +39,13 @@ static void blocks_add(const double *whitened, size_t n, goodness *g)
 }
 
 /* Leaves out single samples that no noise explains, unless they are many. */
-static void outliers_drop(double *whitened, double *residual, size_t n)
+static void outliers_drop(double *whitened, double *residual, size_t n, double outlying)
 {
     size_t count = 0;
     for (size_t j = 0; j < n; ++j)
-        count += fabs(whitened[j]) > OUTLYING;
+        count += fabs(whitened[j]) > outlying;
     for (size_t j = 0; j < n && (double)count <= FEW * (double)n + 1.0; ++j)
-        if (fabs(whitened[j]) > OUTLYING) whitened[j] = residual[j] = 0.0;
+        if (fabs(whitened[j]) > outlying) whitened[j] = residual[j] = 0.0;
 }
 
 /* How much the size of the errors varies along a run, over what noise does: the variance of a block's sum
@@ -101,6 +102,18 @@ static void counts_even(const hci_search *s, const hci_segment *x, double *white
         whitened[j] *= sqrt(sample[j].count * sum / telling);
 }
 
+/* A segment that has less than its noise, as where that was estimated too large, is none of uneven errors for
+ * that. */
+static void noise_even(const hci_segment *x, double *whitened)
+{
+    double square = 0.0;
+    for (size_t j = 0; j < x->count; ++j)
+        square += whitened[j] * whitened[j];
+    const double mean = square / (double)x->count;
+    for (size_t j = 0; j < x->count && mean < 1.0 && mean > 0.0; ++j)
+        whitened[j] /= sqrt(mean);
+}
+
 static void goodness_add(const hci_search *s, const hci_segment *x, double *whitened, goodness *g)
 {
     const hci_noise *noise = hci_regression_noise(s->regression, x);
@@ -110,12 +123,13 @@ static void goodness_add(const hci_search *s, const hci_segment *x, double *whit
     memcpy(whitened, residual, x->count * sizeof *whitened);
     hci_noise_whiten(noise, whitened, x->count, 1);
     counts_even(s, x, whitened);
-    outliers_drop(whitened, residual, x->count);
+    outliers_drop(whitened, residual, x->count, has_even_noise(s, x) ? OUTLYING : OF_SLOPES);
     for (size_t j = 0; j < x->count; ++j)
         g->square += residual[j] * residual[j];
     g->square += (joined - 1.0) * square;
     g->noise += joined * square;
     g->rows += telling;
+    noise_even(x, whitened);
     if (has_even_noise(s, x))
         blocks_add(whitened, x->count, g);
     else if (x->timed)

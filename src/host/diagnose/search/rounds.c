@@ -60,6 +60,20 @@ static hci_status model_show(hci_search *s, const hci_candidates *candidates, hc
     return status;
 }
 
+#define SHORT 0.6 /* of the limit of work */
+
+/* Where work is short, and nothing but noise is left, no further effect is looked for: judging what was found
+ * takes what remains. again: in and out. */
+static hci_status short_work_end(hci_search *s, hci_fitted_model *model, bool *again, hci_note *note)
+{
+    const double *work = s->regression->work;
+    bool is_all = false;
+    if (!*again || !work || *work < SHORT * HCI_MOST_WORK) return HCI_OK;
+    const hci_status status = hci_search_is_noise(s, &model->candidates, &is_all, note);
+    *again = !is_all;
+    return status ? status : hci_search_renew(s, model, note);
+}
+
 static hci_status rounds_run(hci_search *s, hci_fitted_model *model, hci_note *note)
 {
     hci_status status = HCI_OK;
@@ -69,6 +83,7 @@ static hci_status rounds_run(hci_search *s, hci_fitted_model *model, hci_note *n
         hci_search_begin(s, "looking for effects", share_before(round), share_before(round + 1));
         status = round_run(s, model, &again, note);
         if (!status && again) status = model_show(s, &model->candidates, note);
+        if (!status) status = short_work_end(s, model, &again, note);
     }
     return status;
 }

@@ -192,15 +192,33 @@ static hci_status untold_find(const leaving *l, const hci_effect_type *type, boo
     return made ? HCI_OK : hci_note_memory(note, NULL, "leaving runs out");
 }
 
-/* The same of the runs that the others tell, as long as there are enough of these. told: out, of how many
- * they are. */
+/* Adds the runs of which the others do not tell the values of the type itself, such as friction of the only
+ * one of its speed. Returns how many are left. */
+static hci_status unproven_add(const leaving *l, bool *untold, size_t *told, hci_note *note)
+{
+    const hci_groups *groups = &l->equations.groups;
+    double *all_in = hci_memory_new(2 * groups->count + 1, sizeof *all_in), *fall = all_in + groups->count;
+    const bool made = all_in && hci_all_in_squares(groups, l->equations.precision, all_in) &&
+                      hci_left_out_falls(groups, l->equations.precision, fall);
+    *told = 0;
+    for (size_t r = 0; r < groups->count && made; ++r) {
+        untold[r] = untold[r] || tells_alone(fall[r], l->with[r], all_in[r]);
+        *told += !untold[r];
+    }
+    hci_memory_free(all_in);
+    return made ? HCI_OK : hci_note_memory(note, NULL, "leaving runs out");
+}
+
+/* The same of the runs that the others tell, as long as there are enough of these. told: out, how many these
+ * are, or where the type is worth nothing there, how many tell its values as well. */
 static hci_status worth_in_told(const leaving *l, const hci_effect_type *type, double *worth, size_t *told,
                                 hci_note *note)
 {
     bool *untold = hci_memory_new(l->equations.groups.count + 1, sizeof *untold);
     if (!untold) return hci_note_memory(note, NULL, "leaving runs out");
-    const hci_status status = untold_find(l, type, untold, told, note);
+    hci_status status = untold_find(l, type, untold, told, note);
     if (!status && *told >= HCI_LEAST_GROUPS) *worth = worth_in(l, untold);
+    if (!status && *told >= HCI_LEAST_GROUPS && *worth < 0.0) status = unproven_add(l, untold, told, note);
     hci_memory_free(untold);
     return status;
 }
@@ -319,11 +337,20 @@ static hci_status use_of(leaving *l, const hci_effect_type *type, double *worth,
     return status;
 }
 
-/* Runs left out, and halves of them where each of a few is the only one of its load and direction. */
+/* Runs left out, and halves of those of a few that are the only one of their load, direction and speed. */
 typedef struct {
     leaving whole, halves;
     bool has_halves;
 } leavings;
+
+/* Whether halves are left out of more runs than without. */
+static bool any_is_cut(const hci_regression *e)
+{
+    if (hci_run_parts(e, HCI_LEAST_GROUPS) > 1 || hci_run_parts(e, HCI_FEW_RUNS) == 1) return false;
+    for (size_t r = 0; r < e->samples->run_count; ++r)
+        if (e->use[r] && hci_run_is_alone(e, r)) return true;
+    return false;
+}
 
 static void leavings_end(leavings *x)
 {
@@ -335,9 +362,7 @@ static hci_status leavings_start(hci_search *s, const hci_candidates *model, lea
 {
     *x = (leavings){.has_halves = false};
     hci_status status = leaving_start(s, model, HCI_LEAST_GROUPS, &x->whole, note);
-    if (status || hci_run_parts(s->regression, HCI_LEAST_GROUPS) > 1 ||
-        hci_run_parts(s->regression, HCI_FEW_RUNS) == 1 || !hci_runs_all_differ(s->regression))
-        return status;
+    if (status || !any_is_cut(s->regression)) return status;
     status = leaving_start(s, model, HCI_FEW_RUNS, &x->halves, note);
     x->has_halves = !status;
     if (status) leaving_end(&x->whole);

@@ -60,8 +60,8 @@ static void test_few_runs_are_cut(void)
     TEST_ASSERT_EQUAL(2, hci_run_parts(&regression, 5));
 }
 
-/* Idle both ways and three loads; each of the two differences makes it so. */
-static void test_runs_that_all_differ(void)
+/* Idle both ways and three loads: each is alone; each of the four differences makes it so. */
+static void test_runs_that_are_alone(void)
 {
     static const double SPEED[] = {6.0, -6.0, 6.0, 6.0, 6.0}, IQ[] = {0.0, 0.0, 28.0, 53.0, 68.0};
     runs_set(5, 5, HCI_TORQUE_MEASURED);
@@ -69,15 +69,22 @@ static void test_runs_that_all_differ(void)
         statistics[r].mean_speed_rad_per_s = SPEED[r];
         statistics[r].mean_iq_A = statistics[r].current_A = IQ[r];
     }
-    TEST_ASSERT_TRUE(hci_runs_all_differ(&regression));
-    statistics[1].mean_speed_rad_per_s = 3.0;
-    TEST_ASSERT_FALSE(hci_runs_all_differ(&regression));
+    for (size_t r = 0; r < 5; ++r)
+        TEST_ASSERT_TRUE(hci_run_is_alone(&regression, r));
+    statistics[1].mean_speed_rad_per_s = 4.1;
+    TEST_ASSERT_FALSE(hci_run_is_alone(&regression, 0) || hci_run_is_alone(&regression, 1));
+    TEST_ASSERT_TRUE(hci_run_is_alone(&regression, 2));
+    statistics[1].mean_speed_rad_per_s = 3.9; /* the other is more than half as fast again */
+    TEST_ASSERT_TRUE(hci_run_is_alone(&regression, 0));
+    statistics[1].mean_speed_rad_per_s = 6.0;
     use[1] = false;
-    TEST_ASSERT_TRUE(hci_runs_all_differ(&regression));
+    TEST_ASSERT_TRUE(hci_run_is_alone(&regression, 0));
     statistics[3].mean_iq_A = statistics[3].current_A = 62.0; /* within 6.8 of the largest */
-    TEST_ASSERT_FALSE(hci_runs_all_differ(&regression));
+    TEST_ASSERT_FALSE(hci_run_is_alone(&regression, 3));
     statistics[3].mean_id_A = -40.0;
-    TEST_ASSERT_TRUE(hci_runs_all_differ(&regression));
+    TEST_ASSERT_TRUE(hci_run_is_alone(&regression, 3));
+    run[4].torque_source = HCI_TORQUE_HOLDING;
+    TEST_ASSERT_FALSE(hci_run_is_alone(&regression, 3));
 }
 
 /* Any of them may be the one that is alone, and each of the two differences makes it so. */
@@ -151,8 +158,8 @@ static void test_parts_of_a_run_make_it_up(void)
     hci_note note = {{0}};
     runs_set(3, 2, HCI_TORQUE_MEASURED);
     segments_set();
-    TEST_ASSERT_EQUAL(HCI_OK,
-                      hci_run_parts_each(&regression, hci_run_parts(&regression, 2), visit, &v, &note));
+    TEST_ASSERT_EQUAL(
+        HCI_OK, hci_run_parts_each(&regression, hci_run_parts(&regression, 2), false, visit, &v, &note));
     TEST_ASSERT_EQUAL(4, v.count);
     for (size_t k = 0; k < SEGMENTS; ++k) {
         size_t next[] = {segment[k].first, segment[k].first};
@@ -183,8 +190,8 @@ static void test_whole_runs_keep_their_turns(void)
     runs_set(4, 4, HCI_TORQUE_MEASURED);
     use[1] = false;
     segments_set();
-    TEST_ASSERT_EQUAL(HCI_OK,
-                      hci_run_parts_each(&regression, hci_run_parts(&regression, 2), visit, &v, &note));
+    TEST_ASSERT_EQUAL(
+        HCI_OK, hci_run_parts_each(&regression, hci_run_parts(&regression, 2), false, visit, &v, &note));
     TEST_ASSERT_EQUAL(3, v.count);
     TEST_ASSERT_EQUAL(0, v.run[0]);
     TEST_ASSERT_EQUAL(2, v.run[1]);
@@ -192,6 +199,25 @@ static void test_whole_runs_keep_their_turns(void)
     TEST_ASSERT_EQUAL(5, v.segment[0][2].count);
     TEST_ASSERT_EQUAL(9, v.segment[0][2].turns);
     TEST_ASSERT_EQUAL(8, v.segment[1][3].count);
+}
+
+/* Of runs of which two are alike, those two stay whole. */
+static void test_runs_that_are_not_alone_stay_whole(void)
+{
+    static const double SPEED[] = {6.0, -6.0, -5.0};
+    static const size_t RUN[] = {0, 0, 1, 2};
+    visits v = {0};
+    hci_note note = {{0}};
+    runs_set(3, 3, HCI_TORQUE_MEASURED);
+    for (size_t r = 0; r < 3; ++r)
+        statistics[r].mean_speed_rad_per_s = SPEED[r];
+    segments_set();
+    TEST_ASSERT_EQUAL(HCI_OK, hci_run_parts_each(&regression, 2, true, visit, &v, &note));
+    TEST_ASSERT_EQUAL(4, v.count);
+    TEST_ASSERT_EQUAL_MEMORY(RUN, v.run, sizeof RUN);
+    TEST_ASSERT_EQUAL(5, v.segment[0][0].count);
+    TEST_ASSERT_EQUAL(7, v.segment[2][1].count);
+    TEST_ASSERT_EQUAL(8, v.segment[3][3].count);
 }
 
 /* What stands behind the last run is none, and keeps none company. */
@@ -204,8 +230,8 @@ static void test_behind_the_last_run(void)
     segments_set();
     samples.run_count = 3;
     TEST_ASSERT_EQUAL(3, hci_run_parts(&regression, 2));
-    TEST_ASSERT_EQUAL(HCI_OK,
-                      hci_run_parts_each(&regression, hci_run_parts(&regression, 2), visit, &v, &note));
+    TEST_ASSERT_EQUAL(
+        HCI_OK, hci_run_parts_each(&regression, hci_run_parts(&regression, 2), false, visit, &v, &note));
     TEST_ASSERT_EQUAL(9, v.count);
     TEST_ASSERT_EQUAL(2, v.run[8]);
 }
@@ -216,12 +242,12 @@ static void test_a_failure_ends_it(void)
     hci_note note = {{0}};
     runs_set(3, 3, HCI_TORQUE_MEASURED);
     segments_set();
-    TEST_ASSERT_EQUAL(HCI_ERROR_NUMERIC,
-                      hci_run_parts_each(&regression, hci_run_parts(&regression, 2), visit, &v, &note));
+    TEST_ASSERT_EQUAL(HCI_ERROR_NUMERIC, hci_run_parts_each(&regression, hci_run_parts(&regression, 2), false,
+                                                            visit, &v, &note));
     TEST_ASSERT_EQUAL(2, v.count);
     hci_memory_fail_after(0);
-    TEST_ASSERT_EQUAL(HCI_ERROR_MEMORY,
-                      hci_run_parts_each(&regression, hci_run_parts(&regression, 2), visit, &v, &note));
+    TEST_ASSERT_EQUAL(HCI_ERROR_MEMORY, hci_run_parts_each(&regression, hci_run_parts(&regression, 2), false,
+                                                           visit, &v, &note));
     TEST_ASSERT_EQUAL(2, v.count);
 }
 
@@ -229,12 +255,13 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_few_runs_are_cut);
-    RUN_TEST(test_runs_that_all_differ);
+    RUN_TEST(test_runs_that_are_alone);
     RUN_TEST(test_one_without_a_sensor_that_is_alone);
     RUN_TEST(test_one_with_a_sensor_tells_for_all);
     RUN_TEST(test_one_that_is_not_in_use_keeps_no_company);
     RUN_TEST(test_parts_of_a_run_make_it_up);
     RUN_TEST(test_whole_runs_keep_their_turns);
+    RUN_TEST(test_runs_that_are_not_alone_stay_whole);
     RUN_TEST(test_behind_the_last_run);
     RUN_TEST(test_a_failure_ends_it);
     return UNITY_END();

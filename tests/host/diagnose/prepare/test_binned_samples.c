@@ -110,6 +110,23 @@ static void test_turns_become_one_mean(void)
     }
 }
 
+/* Nine slow turns are one mean, and the most of a tenth like them tells nothing else; at another current it
+ * stays as it is. */
+static void test_a_part_of_a_turn_like_the_others(void)
+{
+    turn_steadily(9.8, 6000.0, 0.5);
+    reduce();
+    TEST_ASSERT_EQUAL_UINT64(1, binned.segment_count);
+    TEST_ASSERT_EQUAL_UINT64(9, binned.segment[0].turns);
+    turn_steadily(9.8, 6000.0, 0.5);
+    for (size_t k = 54000; k < run.count; ++k)
+        for (size_t p = 0; p < 3; ++p)
+            run.i_A[3 * k + p] *= 1.5;
+    reduce();
+    TEST_ASSERT_EQUAL_UINT64(3, binned.segment_count);
+    TEST_ASSERT_EQUAL_UINT64(0, binned.segment[2].turns);
+}
+
 /* Short recordings stay as they are, unless a turn has too few samples for the declared cogging torque, 18
  * periods of it: then what is between them stands in other turns. */
 static void test_sparse_turns_become_one_mean(void)
@@ -458,6 +475,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_turns_become_one_mean);
+    RUN_TEST(test_a_part_of_a_turn_like_the_others);
     RUN_TEST(test_sparse_turns_become_one_mean);
     RUN_TEST(test_many_short_runs_become_means);
     RUN_TEST(test_slow_noise_stays);

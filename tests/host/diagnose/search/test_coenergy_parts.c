@@ -241,21 +241,21 @@ static void test_what_of_a_choice_is_kept(void)
 
 /* 0.48 of the samples in an electrical turn of the run with fewest, of those that have one; 90 at the most.
  */
-static void test_the_highest_order(void)
+static void test_the_order_that_samples_tell(void)
 {
-    TEST_ASSERT_EQUAL_INT(16, highest_order(&regression)); /* 48 / 2.91 */
+    TEST_ASSERT_EQUAL_INT(16, resolved_order(&regression)); /* 48 / 2.91 */
     for (size_t k = 0; k < 100; ++k)
         sample[200 + k].reading.theta_m_rad *= -2.0;
-    TEST_ASSERT_EQUAL_INT(8, highest_order(&regression));
+    TEST_ASSERT_EQUAL_INT(8, resolved_order(&regression));
     for (size_t k = 0; k < 100; ++k)
         sample[200 + k].reading.theta_m_rad *= 0.5;
     for (int r = 0; r < RUNS; ++r)
         for (size_t k = 0; k < 100; ++k)
             sample[100 * r + (int)k].reading.theta_m_rad *= 0.91 / 2.91;
-    TEST_ASSERT_EQUAL_INT(52, highest_order(&regression));
+    TEST_ASSERT_EQUAL_INT(52, resolved_order(&regression));
     for (size_t k = 0; k < RUNS * 100; ++k)
         sample[k].reading.theta_m_rad *= 0.89 / 0.91;
-    TEST_ASSERT_EQUAL_INT(90, highest_order(&regression));
+    TEST_ASSERT_EQUAL_INT(90, resolved_order(&regression));
 }
 
 /* Two hundredths of the largest current apart, whatever its size. */
@@ -292,7 +292,7 @@ int main(void)
     RUN_TEST(test_what_a_part_explains);
     RUN_TEST(test_what_is_missed);
     RUN_TEST(test_what_of_a_choice_is_kept);
-    RUN_TEST(test_the_highest_order);
+    RUN_TEST(test_the_order_that_samples_tell);
     RUN_TEST(test_runs_at_different_currents);
     return UNITY_END();
 }

@@ -51,6 +51,26 @@ static void test_how_uneven_blocks_are(void)
     TEST_ASSERT_EQUAL_DOUBLE(1.0, clumps_of(&g));
 }
 
+/* Errors of half the size that was taken for their noise are as even as those of its size; larger ones stay. */
+static void test_less_than_the_noise(void)
+{
+    const hci_segment x = {.count = N};
+    double square = 0.0;
+    for (size_t k = 0; k < N; ++k) {
+        whitened[k] *= 0.5;
+        square += whitened[k] * whitened[k] / N;
+    }
+    const double first = whitened[0];
+    noise_even(&x, whitened);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, first / sqrt(square), whitened[0]);
+    whitened[0] = 2.0 * N;
+    noise_even(&x, whitened);
+    TEST_ASSERT_EQUAL_DOUBLE(2.0 * N, whitened[0]);
+    memset(whitened, 0, sizeof whitened);
+    noise_even(&x, whitened);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, whitened[1]);
+}
+
 static void spikes(size_t count, double size)
 {
     setUp();
@@ -61,21 +81,21 @@ static void spikes(size_t count, double size)
 /* One in two thousand and one more: of 400 one. */
 static void test_single_samples_are_left_out(void)
 {
-    spikes(1, 8.1);
-    outliers_drop(whitened, residual, N);
+    spikes(1, 6.1);
+    outliers_drop(whitened, residual, N, OUTLYING);
     TEST_ASSERT_TRUE(whitened[5] == 0.0 && residual[5] == 0.0 && whitened[6] != 0.0);
-    spikes(1, 7.9);
-    outliers_drop(whitened, residual, N);
-    TEST_ASSERT_TRUE(whitened[5] == 7.9 && residual[5] != 0.0);
+    spikes(1, 5.9);
+    outliers_drop(whitened, residual, N, OUTLYING);
+    TEST_ASSERT_TRUE(whitened[5] == 5.9 && residual[5] != 0.0);
     spikes(2, 9.0);
-    outliers_drop(whitened, residual, N);
+    outliers_drop(whitened, residual, N, OUTLYING);
     TEST_ASSERT_TRUE(whitened[5] == 9.0 && whitened[105] == -9.0);
     static double many[2][2000];
     for (int count = 2; count <= 3; ++count) {
         memset(many, 0, sizeof many);
         for (int k = 0; k < count; ++k)
             many[0][300 * k] = 20.0;
-        outliers_drop(many[0], many[1], 2000);
+        outliers_drop(many[0], many[1], 2000, OUTLYING);
         TEST_ASSERT_EQUAL(count == 3, many[0][0] == 20.0);
     }
 }
@@ -217,6 +237,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_sums_over_blocks);
     RUN_TEST(test_how_uneven_blocks_are);
+    RUN_TEST(test_less_than_the_noise);
     RUN_TEST(test_single_samples_are_left_out);
     RUN_TEST(test_how_a_residual_follows_a_rate);
     RUN_TEST(test_a_residual_that_is_late);

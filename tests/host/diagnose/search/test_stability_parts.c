@@ -50,7 +50,7 @@ void setUp(void)
     }
     precision[0] = 0.5, precision[1] = 0.25, precision[2] = 0.125;
     l = (leaving){.search = &search, .model = &model, .precision = held, .with = with, .without = without};
-    l.equations = (hci_run_equations){.groups = {run, RUNS}, .parts = 1, .run = run, .precision = precision};
+    l.equations = (hci_run_equations){.groups = {run, RUNS}, .run = run, .precision = precision};
 }
 
 void tearDown(void)

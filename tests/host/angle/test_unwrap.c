@@ -1,6 +1,6 @@
 /* Unwrapping: every angle that was wrapped in one of the usual ways comes back as it was, and what tells
  * nothing of whole turns is left alone and named. */
-#include "host/numeric/unwrap.h"
+#include "host/angle/unwrap.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Angles that were recorded within a turn, made to go on. */
-#ifndef HCI_SRC_HOST_NUMERIC_UNWRAP_H
-#define HCI_SRC_HOST_NUMERIC_UNWRAP_H
+#ifndef HCI_SRC_HOST_ANGLE_UNWRAP_H
+#define HCI_SRC_HOST_ANGLE_UNWRAP_H
 
 #include <stddef.h>
 

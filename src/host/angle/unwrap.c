@@ -1,4 +1,4 @@
-#include "host/numeric/unwrap.h"
+#include "host/angle/unwrap.h"
 
 #include <math.h>
 #include <stdbool.h>
