@@ -95,7 +95,7 @@ static void zeros_fill(const hci_binned_samples *samples, hci_diagnosis *d)
     d->only_noise = 0;
     for (size_t r = 0; r < samples->run_count; ++r) {
         const hci_run_statistics *x = &samples->statistics[r];
-        d->only_noise += x->no_current;
+        d->only_noise += x->no_current && !x->zeros_read;
         if (!x->zeros_read) continue;
         ++d->zeros_read;
         for (size_t s = 0; s < 3; ++s)

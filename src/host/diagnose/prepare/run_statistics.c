@@ -1,12 +1,14 @@
 #include "host/diagnose/prepare/run_statistics.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "hci/math/harmonic.h"
 #include "host/numeric/angle_bins.h"
 #include "host/numeric/statistics.h"
 #include "host/recording/rotor_frame.h"
 
+#define STANDS       6.0  /* standard errors of a mean, beside which noise is none */
 #define ROUNDING_RAD 1e-7 /* a step of angle up to this is none */
 #define FREEDOM      100.0
 #define LEAST_ARC    0.1  /* electrical turns that a rotor has to be turned by to be at other angles */
@@ -154,17 +156,32 @@ static bool is_noise(const hci_run *r, int pole_pairs, const double standing_A[3
     return part > 1;
 }
 
+/* Means of the phase currents, and whether one is far above what the scatter of as many samples makes of it.
+ */
+static bool means_find(const hci_run *r, double mean_A[3])
+{
+    double square_A2[3] = {0.0};
+    bool any = false;
+    for (size_t k = 0; k < 3 * r->count; ++k) {
+        mean_A[k % 3] += r->i_A[k] / (double)r->count;
+        square_A2[k % 3] += r->i_A[k] * r->i_A[k] / (double)r->count;
+    }
+    for (size_t s = 0; s < 3; ++s)
+        any = any || mean_A[s] * mean_A[s] * (double)r->count > STANDS * STANDS * square_A2[s];
+    return any;
+}
+
 /* Means of the phase currents of a shaft that turns: of a sine they are next to nothing in so many periods.
- * What else was read may be noise: then they are what flowed, or zeros of sensors. */
+ * What else was read may be noise: then they are what flowed, or zeros of sensors. Where all is noise, they
+ * are that where they stand out of it. */
 static void standing_find(const hci_run *r, int pole_pairs, hci_run_statistics *f)
 {
     double mean_A[3] = {0.0};
     if (!(f->turns * pole_pairs >= LEAST_PERIODS)) return;
-    for (size_t k = 0; k < 3 * r->count; ++k)
-        mean_A[k % 3] += r->i_A[k] / (double)r->count;
-    for (size_t s = 0; s < 3; ++s)
-        f->standing_A[s] = mean_A[s];
-    f->stands = is_noise(r, pole_pairs, mean_A);
+    const bool stands_out = means_find(r, mean_A);
+    if (f->no_current && !stands_out) return;
+    memcpy(f->standing_A, mean_A, sizeof mean_A);
+    f->stands = f->no_current || is_noise(r, pole_pairs, mean_A);
 }
 
 /* Whether each phase current is the same at all angles of the rotor, of which there are more than a few. */
@@ -231,7 +248,7 @@ hci_run_statistics hci_run_statistics_of(const hci_run *r, int pole_pairs)
     if (r->only_mean) return f;
     f.angle_step_rad = angle_step(r);
     f.turns = turns_of(r);
-    if (!f.no_current) standing_find(r, pole_pairs, &f);
+    standing_find(r, pole_pairs, &f);
     f.is_direct = !f.no_current && is_direct(r, pole_pairs, f.turns);
     if (r->torque_Nm) f.repeat_Nm = repeatability(r, f.turns);
     return f;

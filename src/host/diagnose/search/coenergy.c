@@ -7,8 +7,8 @@
 #include "host/base/memory.h"
 #include "host/diagnose/candidates/coenergy_terms.h"
 #include "host/diagnose/candidates/empirical_term.h"
-#include "host/diagnose/candidates/shown_orders.h"
 #include "host/diagnose/fit/linearise.h"
+#include "host/diagnose/fit/shown_orders.h"
 #include "host/numeric/left_out.h"
 
 enum {

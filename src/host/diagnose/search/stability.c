@@ -192,6 +192,16 @@ static hci_status untold_find(const leaving *l, const hci_effect_type *type, boo
     return made ? HCI_OK : hci_note_memory(note, NULL, "leaving runs out");
 }
 
+/* Whether a type is in with orders of the turn, which any run tells. */
+static bool has_orders(const hci_candidates *model, const hci_effect_type *type)
+{
+    for (size_t k = 0; k < model->count; ++k) {
+        const hci_candidate *x = &model->candidate[k];
+        if (x->in && x->type == type && type->parameter[x->term[0].parameter].ordered) return true;
+    }
+    return false;
+}
+
 /* Adds the runs of which the others do not tell the values of the type itself, such as friction of the only
  * one of its speed. Returns how many are left. */
 static hci_status unproven_add(const leaving *l, bool *untold, size_t *told, hci_note *note)
@@ -218,7 +228,8 @@ static hci_status worth_in_told(const leaving *l, const hci_effect_type *type, d
     if (!untold) return hci_note_memory(note, NULL, "leaving runs out");
     hci_status status = untold_find(l, type, untold, told, note);
     if (!status && *told >= HCI_LEAST_GROUPS) *worth = worth_in(l, untold);
-    if (!status && *told >= HCI_LEAST_GROUPS && *worth < 0.0) status = unproven_add(l, untold, told, note);
+    if (!status && *told >= HCI_LEAST_GROUPS && *worth < 0.0 && !has_orders(l->model, type))
+        status = unproven_add(l, untold, told, note);
     hci_memory_free(untold);
     return status;
 }

@@ -124,6 +124,25 @@ static void test_zeros_of_sensors(void)
     TEST_ASSERT_TRUE(x[0].zeros_read && !x[1].zeros_read);
 }
 
+/* Zeros that are small beside their noise, and far above what as many samples make of its mean, are zeros all
+ * the same; noise about nothing has none. */
+static void test_small_zeros(void)
+{
+    const double small_A = 12.0 * NOISE_A / sqrt(N);
+    const double ZERO_A[3] = {small_A, 0.0, -small_A}, NOTHING_A[3] = {0.0};
+    read_zeros(ZERO_A);
+    hci_run_statistics x = hci_run_statistics_of(&run, P);
+    TEST_ASSERT_TRUE(x.no_current && x.stands);
+    for (size_t s = 0; s < 3; ++s)
+        TEST_ASSERT_DOUBLE_WITHIN(4.0 * NOISE_A / sqrt(N), ZERO_A[s], x.standing_A[s]);
+    hci_run_statistics_zeros_find(&x, 1, 100.0);
+    TEST_ASSERT_TRUE(x.zeros_read);
+    read_zeros(NOTHING_A);
+    x = hci_run_statistics_of(&run, P);
+    TEST_ASSERT_TRUE(x.no_current && !x.stands);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, x.standing_A[0]);
+}
+
 /* Noise that went through a filter of `keeps` of the reading before, beside a current of `flows` at `order`
  * of the rotor frame. */
 static bool is_filtered_noise(double keeps, double flows, double order)
@@ -218,6 +237,7 @@ int main(void)
     RUN_TEST(test_both_ways);
     RUN_TEST(test_repeatability);
     RUN_TEST(test_zeros_of_sensors);
+    RUN_TEST(test_small_zeros);
     RUN_TEST(test_filtered_noise);
     RUN_TEST(test_zeros_of_sensors_without_a_clock);
     RUN_TEST(test_a_current_that_flows_is_no_zero);

@@ -1,6 +1,6 @@
 /* Up to which order the torque of recordings varies. */
-#ifndef HCI_SRC_HOST_DIAGNOSE_CANDIDATES_SHOWN_ORDERS_H
-#define HCI_SRC_HOST_DIAGNOSE_CANDIDATES_SHOWN_ORDERS_H
+#ifndef HCI_SRC_HOST_DIAGNOSE_FIT_SHOWN_ORDERS_H
+#define HCI_SRC_HOST_DIAGNOSE_FIT_SHOWN_ORDERS_H
 
 #include "host/diagnose/reading/regression.h"
 

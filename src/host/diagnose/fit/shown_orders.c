@@ -1,4 +1,4 @@
-#include "host/diagnose/candidates/shown_orders.h"
+#include "host/diagnose/fit/shown_orders.h"
 
 #include <math.h>
 

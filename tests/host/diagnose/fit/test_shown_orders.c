@@ -1,5 +1,5 @@
 /* The highest order of a torque: by its amplitude, beside noise, in any of the runs that are in use. */
-#include "host/diagnose/candidates/shown_orders.h"
+#include "host/diagnose/fit/shown_orders.h"
 
 #include <math.h>
 
