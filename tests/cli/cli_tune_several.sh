@@ -46,4 +46,18 @@ tests moved '100 100 100 100' 0.5 30 0.35 2000
 run 1 tune moved.csv --pole-pairs 4 --kv 18.38 --work 0.5 -o moved
 says '^tuned.*; the recording moved.csv shows 0.[12][0-9]* N·m from peak to peak'
 
+# loads of another direction, of which a torque wanders that no effect makes, beside three along i_q
+aside() { # FILE SPEED_rad_per_s ID_A IQ_A WANDER_Nm SEED
+    awk -v w="$2" -v id="$3" -v iq="$4" -v wander="$5" -v seed="$6" 'BEGIN { srand(seed); print "time_s,theta_m_rad,ia_A,ib_A,ic_A,torque_Nm"; pi = 3.141592653589793
+        for (k = 0; k < 3000; ++k) { t = 0.001 * k; x = w * t; e = 4 * x; y = 0.98 * y + 0.2 * (rand() - 0.5)
+            for (s = 0; s < 3; ++s) i[s] = iq * sin(e - 2 * pi * s / 3) - id * cos(e - 2 * pi * s / 3) + 0.01 * (rand() - 0.5)
+            printf "%.3f,%.6f,%.5f,%.5f,%.5f,%.5f\n", t, x, i[0], i[1], i[2], 0.6 * iq + 0.05 * sin(6 * e + 0.3) + wander * y * (1 + sin(5.3 * x)) + 0.002 * (rand() - 0.5) } }' >"$1"
+}
+aside q0.csv 12 0 0 0 1; aside q2.csv 12 0 2 0 2; aside q3.csv 12 0 3 0 3; aside q4.csv -12 0 4 0 4
+aside d3.csv 12 -3 3 0.6 5; aside d4.csv 12 -4 2 0.9 6
+run 1 tune q?.csv d?.csv --pole-pairs 4 --flux 0.1 --slots 24 --rated-current 5 -o aside
+says 'Without d3\.csv and d4\.csv: the currents of the other loads have one direction'
+run 0 tune q?.csv --pole-pairs 4 --flux 0.1 --slots 24 --rated-current 5 -o along
+check "a direction that is the only one" [ "$(grep -c 'have one direction in the rotor frame, and there' "$work/stdout")" -eq 0 ]
+
 finish

@@ -1,8 +1,9 @@
 #include "cli/tune/words/tune_next.h"
-#include "cli/tune/tune_cover.h"
 
 #include <math.h>
 
+#include "cli/tune/tune_cover.h"
+#include "cli/tune/tune_directions.h"
 #include "cli/tune/tune_facts.h"
 #include "cli/tune/tune_options.h"
 #include "cli/tune/tune_suspect.h"
@@ -39,6 +40,19 @@ static bool has_load(const cli_tuning *t)
             hci_run_is_loaded(&t->runs.run[k], t->runs.run[k].pole_pairs))
             return true;
     return false;
+}
+
+/* A model of currents along one direction has less to explain. */
+static void say_other_directions(cli_tuning *t)
+{
+    char names[CLI_TUNE_PATH];
+    if (t->diagnosis.verdict < HCI_DIAGNOSIS_PARTLY || !cli_tune_other_directions(t, names, sizeof names))
+        return;
+    hci_tuning_say(
+        &t->tuning, HCI_TUNING_NEXT,
+        "Without %s: the currents of the other loads have one direction in the rotor frame, and there "
+        "tune may explain what it does not explain of all; its table is then along that direction.",
+        names);
 }
 
 /* What the bench at hand can do first. */
@@ -192,5 +206,6 @@ void cli_tune_say_next(cli_tuning *t)
 {
     if (!t->has_slip) say_next_turn(t);
     say_next_correction(t);
+    if (t->has_diagnosis && !t->has_slip) say_other_directions(t);
     if (t->is_solved && t->solution.expected.state != HCI_RIPPLE_KNOWN) say_next_on_machine(t);
 }
