@@ -1,0 +1,83 @@
+/* What is much beside what is known, what a model costs whose runs have means of their own, and when single
+ * terms take the place of a whole. */
+#include "host/diagnose/search/settle.c"
+
+#include "support/searching.h"
+
+void setUp(void)
+{
+    dataset_start();
+    memset(&search, 0, sizeof search);
+}
+
+void tearDown(void)
+{
+    if (search.residual_Nm) search_end();
+    dataset_end();
+}
+
+/* By sizes far from 1, either way: a share is of what is known. */
+static void test_what_is_much(void)
+{
+    for (double size_Nm = 1e-3; size_Nm < 2e3; size_Nm *= 1e3) {
+        understanding u = {.known_Nm = size_Nm, .unexplained_Nm = 1.01 * SMALL * size_Nm};
+        TEST_ASSERT_TRUE(is_much(&u));
+        u.unexplained_Nm = 0.99 * SMALL * size_Nm;
+        TEST_ASSERT_FALSE(is_much(&u));
+        u.known_ripple_Nm = size_Nm, u.unexplained_ripple_Nm = 1.01 * SMALL * size_Nm;
+        TEST_ASSERT_TRUE(is_much(&u));
+        u.noise_Nm = 1.02 * SMALL * size_Nm; /* within the noise */
+        TEST_ASSERT_FALSE(is_much(&u));
+        u.noise_Nm = 0.0, u.unexplained_ripple_Nm = 0.99 * SMALL * size_Nm;
+        TEST_ASSERT_FALSE(is_much(&u));
+    }
+}
+
+/* A mean for each run costs the logarithm of the rows, as any value does. */
+static void test_what_means_of_their_own_cost(void)
+{
+    hci_fitted_model free = {0};
+    double score = 0.0;
+    record_map(0.0, 0.0);
+    search_start();
+    model_add("friction", "coulomb", NULL, 0.0);
+    model_fit();
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_fitted_model_copy(&model, &free, &note));
+    search.regression->free_means = true;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_fit(&search, &free, &note));
+    search.regression->free_means = false;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, score_of_means(&search, &model, &score, &note));
+    TEST_ASSERT_FALSE(search.regression->free_means);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, free.fit.score + 4.0 * log(model.fit.rows), score);
+    hci_fitted_model_release(&free);
+}
+
+/* Single terms that say as little of runs left out do not take the place of a whole co-energy. */
+static void test_single_terms_that_predict_nothing(void)
+{
+    static const double OFF_NM[] = {1.0, -1.0, -0.6, 1.1, 0.4, -0.9, -0.2, 0.8};
+    bool unpredicted = true;
+    for (size_t r = 0; r < 8; ++r)
+        record(450, &(point){60.0 + 30.0 * (double)r, 0.0, 0.0, 10.0 * NOISE_NM * OFF_NM[r], 0.0});
+    search_start();
+    model_add("friction", "coulomb", NULL, 0.0);
+    model_add("friction", "viscous", NULL, 0.0);
+    model_fit();
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_fitted_model_copy(&model, &search.single, &note));
+    model_add("friction", "quadratic", NULL, 0.0);
+    model_fit();
+    search.whole_coenergy = true;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, single_try(&search, &model, &unpredicted, &note));
+    TEST_ASSERT_TRUE(unpredicted);
+    TEST_ASSERT_EQUAL_UINT64(3, hci_candidates_terms_in(&model.candidates));
+    hci_fitted_model_release(&search.single);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_what_is_much);
+    RUN_TEST(test_what_means_of_their_own_cost);
+    RUN_TEST(test_single_terms_that_predict_nothing);
+    return UNITY_END();
+}
