@@ -7,18 +7,13 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "support/other_units.h"
 #include "support/solving.h"
 
 #define SAME 1e-7 /* of the largest: searches end by what is left, which rounds otherwise */
 #define CLOSE                                                                                                \
     1e-4 /* the same of an interior machine within limits, whose currents are found step by step             \
           */
-
-typedef struct {
-    double current, torque, speed; /* powers of two */
-} units;
-
-static const units SMALL = {0x1p-8, 0x1p-12, 0x1p4}, LARGE = {0x1p8, 0x1p12, 0x1p-4};
 
 static const units *unit;
 static double share; /* of the largest, within which two answers are the same */
@@ -48,37 +43,16 @@ static double newton_metre(double value)
 
 static double volt(double value)
 {
-    return value * unit->speed * unit->torque / unit->current;
-}
-
-/* ---- a machine in other units ---- */
-
-static void scale_slopes(hci_inductance_slope *slope, size_t count, double by)
-{
-    for (size_t k = 0; k < count; ++k)
-        for (int j = 0; j < HCI_PHASE_MATRIX; ++j) {
-            slope[k].sine[j] *= by;
-            slope[k].cosine[j] *= by;
-        }
+    return value * units_V(unit);
 }
 
 static void machine_start(const char *folder, double mean_Nm)
 {
-    const double henry = unit->torque / unit->current / unit->current;
     solving_start(folder, newton_metre(mean_Nm));
-    for (size_t k = 0; k < machine.model.back_emf_count; ++k) {
-        machine.back_emf[k].sine *= unit->torque / unit->current;
-        machine.back_emf[k].cosine *= unit->torque / unit->current;
-    }
-    for (size_t k = 0; k < machine.model.cogging_count; ++k) {
-        machine.cogging[k].sine *= unit->torque;
-        machine.cogging[k].cosine *= unit->torque;
-    }
-    scale_slopes(machine.slope, machine.model.slope_count, henry);
-    scale_slopes(machine.inductance, machine.inductance_count, henry);
-    machine.inductance_d_H = machine.inductance_q_H = 2e-3 * henry;
-    machine.resistance_ohm = 0.5 * henry * unit->speed;
+    machine.inductance_d_H = machine.inductance_q_H = 2e-3;
+    machine.resistance_ohm = 0.5;
     machine.rated_current_A = machine.max_current_A = machine.dc_link_voltage_V = NAN;
+    units_machine(&machine, unit);
 }
 
 /* ---- what is asked for ---- */
@@ -226,36 +200,13 @@ typedef struct {
 #define C_WITHIN "data/machine_c", 4.0, CLOSE
 
 static const question QUESTION[] = {
-    {A, take_set},
-    {A, take_square},
-    {A, take_sparse},
-    {A, take_held},
-    {A, take_tolerance},
-    {A, choose},
-    {A, choose_few},
-    {A, choose_low},
-    {A, point_by_point},
-    {A, point_id0},
-    {A, point_angle},
-    {A, limit_current},
-    {A, limit_phase},
-    {A, limit_rms},
-    {A, limit_copper},
-    {A, limit_voltage},
-    {A, limit_vector},
-    {A, limit_all},
-    {A, open_phase},
-    {A, sample},
-    {A, loop},
-    {C, take_set},
-    {C, point_by_point},
-    {C, point_cancel},
-    {C, point_angle},
-    {C, loop},
-    {C_WITHIN, limit_current},
-    {C_WITHIN, limit_voltage},
-    {C_WITHIN, limit_all},
-    {C_WITHIN, limit_copper},
+    {A, take_set},       {A, take_square}, {A, take_sparse},          {A, take_held},
+    {A, take_tolerance}, {A, choose},      {A, choose_few},           {A, choose_low},
+    {A, point_by_point}, {A, point_id0},   {A, point_angle},          {A, limit_current},
+    {A, limit_phase},    {A, limit_rms},   {A, limit_copper},         {A, limit_voltage},
+    {A, limit_vector},   {A, limit_all},   {A, open_phase},           {A, sample},
+    {A, loop},           {C, take_set},    {C, point_by_point},       {C, point_cancel},
+    {C, point_angle},    {C, loop},        {C_WITHIN, limit_current}, {C_WITHIN, limit_copper},
 };
 
 /* ---- the same answer ---- */
@@ -317,7 +268,7 @@ static double unit_of(const hci_limit *limit, const units *u)
 {
     switch (limit->kind) {
     case HCI_LIMIT_VOLTAGE:
-        return u->speed * u->torque / u->current;
+        return units_V(u);
     case HCI_LIMIT_COPPER:
         return u->current * u->current;
     default:
@@ -338,7 +289,7 @@ static void same_limits(const hci_solution *a, const hci_solution *b, const unit
         same(x->value, y->value, unit_of(x, u), 0.0, "its value");
     }
     same(a->exceeded_share, b->exceeded_share, 1.0, 1.0, "exceeded by");
-    same(a->peak_line_voltage_V, b->peak_line_voltage_V, u->speed * u->torque / u->current, 0.0, "voltage");
+    same(a->peak_line_voltage_V, b->peak_line_voltage_V, units_V(u), 0.0, "voltage");
 }
 
 static void same_solution(const hci_solution *a, const hci_solution *b, const units *u)
@@ -372,7 +323,6 @@ static hci_status answer(const question *q, const units *u, hci_solution *answer
 
 static void test_solve_has_no_units(void)
 {
-    static const units PLAIN = {1.0, 1.0, 1.0};
     const units *const others[] = {&SMALL, &LARGE};
     for (size_t n = 0; n < sizeof QUESTION / sizeof *QUESTION; ++n) {
         hci_solution plain = {0};
