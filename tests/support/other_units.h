@@ -3,13 +3,33 @@
 #ifndef OTHER_UNITS_H
 #define OTHER_UNITS_H
 
+#include <math.h>
+#include <stdio.h>
+
 #include "hci/host/machine/machine.h"
+#include "unity.h"
 
 typedef struct {
     double current, torque, speed; /* powers of two; speed: of 1/time */
 } units;
 
 static const units PLAIN = {1.0, 1.0, 1.0}, SMALL = {0x1p-8, 0x1p-12, 0x1p4}, LARGE = {0x1p8, 0x1p12, 0x1p-4};
+
+static double units_share;   /* of the larger one, within which two numbers are the same */
+static char units_place[80]; /* which case it is, for messages */
+
+/* Whether a number is the same in other units, `by` of which are one of the plain ones; sizes below `largest`
+ * count as that. */
+static inline void units_same(double plain, double other, double by, double largest, const char *what)
+{
+    char text[160];
+    snprintf(text, sizeof text, "%s of %s", what, units_place);
+    if (!isfinite(plain)) {
+        TEST_ASSERT_TRUE_MESSAGE(isnan(plain) ? isnan(other) : plain == other, text);
+        return;
+    }
+    TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(units_share * fmax(fabs(plain), largest), plain, other / by, text);
+}
 
 static inline double units_V(const units *u)
 {

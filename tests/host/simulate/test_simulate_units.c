@@ -7,8 +7,6 @@
 
 #define SAME 1e-9
 
-static char place[80];
-
 void setUp(void)
 {
     drives_start();
@@ -81,33 +79,22 @@ static const struct {
 
 /* ---- the same figures ---- */
 
-static void same(double plain, double other, double by, double largest, const char *what)
-{
-    char text[160];
-    snprintf(text, sizeof text, "%s of %s", what, place);
-    if (!isfinite(plain)) {
-        TEST_ASSERT_TRUE_MESSAGE(isnan(plain) ? isnan(other) : plain == other, text);
-        return;
-    }
-    TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(SAME * fmax(fabs(plain), largest), plain, other / by, text);
-}
-
 static void same_statistics(const hci_statistics *a, const hci_statistics *b, double by, const char *what)
 {
-    same(a->mean, b->mean, by, a->most, what);
-    same(a->rms, b->rms, by, 0.0, what);
-    same(a->most, b->most, by, 0.0, what);
-    same(a->least, b->least, by, a->most, what);
+    units_same(a->mean, b->mean, by, a->most, what);
+    units_same(a->rms, b->rms, by, 0.0, what);
+    units_same(a->most, b->most, by, 0.0, what);
+    units_same(a->least, b->least, by, a->most, what);
 }
 
 static void same_energies(const hci_energies *a, const hci_energies *b, double by)
 {
-    same(a->electrical, b->electrical, by, 0.0, "electrical");
-    same(a->copper, b->copper, by, 0.0, "copper");
-    same(a->stored, b->stored, by, fabs(a->mechanical), "stored");
-    same(a->mechanical, b->mechanical, by, 0.0, "mechanical");
-    same(a->friction, b->friction, by, fabs(a->mechanical), "friction");
-    same(a->kinetic, b->kinetic, by, fabs(a->mechanical), "kinetic");
+    units_same(a->electrical, b->electrical, by, 0.0, "electrical");
+    units_same(a->copper, b->copper, by, 0.0, "copper");
+    units_same(a->stored, b->stored, by, fabs(a->mechanical), "stored");
+    units_same(a->mechanical, b->mechanical, by, 0.0, "mechanical");
+    units_same(a->friction, b->friction, by, fabs(a->mechanical), "friction");
+    units_same(a->kinetic, b->kinetic, by, fabs(a->mechanical), "kinetic");
 }
 
 static void same_counts(const hci_simulation *a, const hci_simulation *b)
@@ -124,24 +111,25 @@ static void same_counts(const hci_simulation *a, const hci_simulation *b)
 static void same_simulation(const hci_simulation *a, const hci_simulation *b, const units *u)
 {
     same_counts(a, b);
-    same(a->step_s, b->step_s, 1.0 / u->speed, 0.0, "step");
-    same(a->from_s, b->from_s, 1.0 / u->speed, 0.0, "from");
+    units_same(a->step_s, b->step_s, 1.0 / u->speed, 0.0, "step");
+    units_same(a->from_s, b->from_s, 1.0 / u->speed, 0.0, "from");
     same_statistics(&a->torque_Nm, &b->torque_Nm, u->torque, "torque");
     same_statistics(&a->speed_rad_per_s, &b->speed_rad_per_s, u->speed, "speed");
     same_statistics(&a->current_A, &b->current_A, u->current, "current");
     same_statistics(&a->current_dqx_A, &b->current_dqx_A, u->torque, "current dqx");
-    same(a->peak_phase_A, b->peak_phase_A, u->current, 0.0, "peak");
-    same(a->copper_W, b->copper_W, u->torque * u->speed, 0.0, "copper loss");
-    same(a->plain_amplitude_A, b->plain_amplitude_A, u->current, 0.0, "plain");
-    same(a->switching_frequency_Hz, b->switching_frequency_Hz, u->speed, 0.0, "switching");
-    same(a->loss_to_plain, b->loss_to_plain, 1.0, 0.0, "loss to plain");
-    same(a->plain.peak_to_peak_Nm, b->plain.peak_to_peak_Nm, u->torque, 0.0, "ripple of the plain sine");
-    same(a->plain.T_ripple_percent, b->plain.T_ripple_percent, 1.0, 0.0, "the same in percent");
-    same(a->T_ripple_percent, b->T_ripple_percent, 1.0, 0.0, "ripple");
+    units_same(a->peak_phase_A, b->peak_phase_A, u->current, 0.0, "peak");
+    units_same(a->copper_W, b->copper_W, u->torque * u->speed, 0.0, "copper loss");
+    units_same(a->plain_amplitude_A, b->plain_amplitude_A, u->current, 0.0, "plain");
+    units_same(a->switching_frequency_Hz, b->switching_frequency_Hz, u->speed, 0.0, "switching");
+    units_same(a->loss_to_plain, b->loss_to_plain, 1.0, 0.0, "loss to plain");
+    units_same(a->plain.peak_to_peak_Nm, b->plain.peak_to_peak_Nm, u->torque, 0.0,
+               "ripple of the plain sine");
+    units_same(a->plain.T_ripple_percent, b->plain.T_ripple_percent, 1.0, 0.0, "the same in percent");
+    units_same(a->T_ripple_percent, b->T_ripple_percent, 1.0, 0.0, "ripple");
     same_energies(&a->energy_J, &b->energy_J, u->torque);
     for (size_t k = 0; k < a->spectrum_count; ++k) {
-        same(a->spectrum_Nm[k].sine, b->spectrum_Nm[k].sine, u->torque, a->torque_Nm.most, "order");
-        same(a->spectrum_Nm[k].cosine, b->spectrum_Nm[k].cosine, u->torque, a->torque_Nm.most, "order");
+        units_same(a->spectrum_Nm[k].sine, b->spectrum_Nm[k].sine, u->torque, a->torque_Nm.most, "order");
+        units_same(a->spectrum_Nm[k].cosine, b->spectrum_Nm[k].cosine, u->torque, a->torque_Nm.most, "order");
     }
 }
 
@@ -164,10 +152,11 @@ static hci_simulation play(size_t n, const units *u)
 static void test_a_drive_has_no_units(void)
 {
     const units *const others[] = {&SMALL, &LARGE};
+    units_share = SAME;
     for (size_t n = 0; n < sizeof QUESTION / sizeof *QUESTION; ++n) {
         hci_simulation plain = play(n, &PLAIN);
         for (size_t k = 0; k < sizeof others / sizeof *others; ++k) {
-            snprintf(place, sizeof place, "question %zu, units %zu", n, k);
+            snprintf(units_place, sizeof units_place, "question %zu, units %zu", n, k);
             hci_simulation other = play(n, others[k]);
             same_simulation(&plain, &other, others[k]);
             hci_simulation_release(&other);

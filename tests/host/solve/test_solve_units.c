@@ -16,8 +16,6 @@
           */
 
 static const units *unit;
-static double share; /* of the largest, within which two answers are the same */
-static char place[80];
 static hci_wave held;
 static hci_component component[4] = {{1.0, 1}, {5.0, -1}, {7.0, 1}, {11.0, -1}};
 static hci_set name[4] = {HCI_SET_POS, HCI_SET_NEG, HCI_SET_POS, HCI_SET_NEG};
@@ -211,17 +209,6 @@ static const question QUESTION[] = {
 
 /* ---- the same answer ---- */
 
-static void same(double plain, double other, double by, double largest, const char *what)
-{
-    char text[160];
-    snprintf(text, sizeof text, "%s of %s", what, place);
-    if (!isfinite(plain)) {
-        TEST_ASSERT_TRUE_MESSAGE(isnan(plain) ? isnan(other) : plain == other, text);
-        return;
-    }
-    TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(share * fmax(fabs(plain), largest), plain, other / by, text);
-}
-
 static void same_currents(const hci_solution *a, const hci_solution *b, const units *u)
 {
     TEST_ASSERT_EQUAL_UINT64(a->current.count, b->current.count);
@@ -231,17 +218,19 @@ static void same_currents(const hci_solution *a, const hci_solution *b, const un
         const double most = a->peak_phase_current_A;
         TEST_ASSERT_EQUAL_DOUBLE(x->order, y->order);
         TEST_ASSERT_EQUAL_INT(x->sequence, y->sequence);
-        same(x->sine, y->sine, u->current, most, "sine");
-        same(x->cosine, y->cosine, u->current, most, "cosine");
-        if (a->per_Nm) same(a->per_Nm[k].sine, b->per_Nm[k].sine, u->current / u->torque, 1.0, "per_Nm");
-        if (a->constant) same(a->constant[k].cosine, b->constant[k].cosine, u->current, most, "constant");
+        units_same(x->sine, y->sine, u->current, most, "sine");
+        units_same(x->cosine, y->cosine, u->current, most, "cosine");
+        if (a->per_Nm)
+            units_same(a->per_Nm[k].sine, b->per_Nm[k].sine, u->current / u->torque, 1.0, "per_Nm");
+        if (a->constant)
+            units_same(a->constant[k].cosine, b->constant[k].cosine, u->current, most, "constant");
     }
-    same(a->mean_square_A2, b->mean_square_A2, u->current * u->current, 0.0, "mean square");
-    same(a->limit_mean_square_A2, b->limit_mean_square_A2, u->current * u->current, 0.0, "its limit");
-    same(a->peak_phase_current_A, b->peak_phase_current_A, u->current, 0.0, "peak");
-    same(a->rms_phase_current_A, b->rms_phase_current_A, u->current, 0.0, "rms");
-    same(a->plain_amplitude_A, b->plain_amplitude_A, u->current, 0.0, "plain sine");
-    same(a->least_iq_A, b->least_iq_A, u->current, 0.0, "least i_q");
+    units_same(a->mean_square_A2, b->mean_square_A2, u->current * u->current, 0.0, "mean square");
+    units_same(a->limit_mean_square_A2, b->limit_mean_square_A2, u->current * u->current, 0.0, "its limit");
+    units_same(a->peak_phase_current_A, b->peak_phase_current_A, u->current, 0.0, "peak");
+    units_same(a->rms_phase_current_A, b->rms_phase_current_A, u->current, 0.0, "rms");
+    units_same(a->plain_amplitude_A, b->plain_amplitude_A, u->current, 0.0, "plain sine");
+    units_same(a->least_iq_A, b->least_iq_A, u->current, 0.0, "least i_q");
 }
 
 static void same_torque(const hci_solution *a, const hci_solution *b, const units *u)
@@ -250,18 +239,18 @@ static void same_torque(const hci_solution *a, const hci_solution *b, const unit
     for (size_t k = 0; k < a->order_count; ++k) {
         const hci_solved_order *x = &a->order[k], *y = &b->order[k];
         TEST_ASSERT_EQUAL_DOUBLE(x->torque_Nm.order, y->torque_Nm.order);
-        same(x->torque_Nm.sine, y->torque_Nm.sine, u->torque, a->wanted_mean_Nm, "torque");
-        same(x->torque_Nm.cosine, y->torque_Nm.cosine, u->torque, a->wanted_mean_Nm, "torque");
-        same(x->before_Nm.sine, y->before_Nm.sine, u->torque, a->wanted_mean_Nm, "before");
+        units_same(x->torque_Nm.sine, y->torque_Nm.sine, u->torque, a->wanted_mean_Nm, "torque");
+        units_same(x->torque_Nm.cosine, y->torque_Nm.cosine, u->torque, a->wanted_mean_Nm, "torque");
+        units_same(x->before_Nm.sine, y->before_Nm.sine, u->torque, a->wanted_mean_Nm, "before");
         TEST_ASSERT_EQUAL_INT(x->verdict, y->verdict);
         TEST_ASSERT_EQUAL_DOUBLE(x->remedy.order, y->remedy.order);
     }
-    same(a->tolerance_Nm, b->tolerance_Nm, u->torque, 0.0, "tolerance");
-    same(a->worst_error_Nm, b->worst_error_Nm, u->torque, a->wanted_mean_Nm, "worst");
-    same(a->T_ripple_percent, b->T_ripple_percent, 1.0, 100.0, "ripple");
-    same(a->T_ripple_before_percent, b->T_ripple_before_percent, 1.0, 100.0, "ripple before");
-    same(a->torque_at_limit_Nm, b->torque_at_limit_Nm, u->torque, 0.0, "torque at the limit");
-    same(a->minimised_Nm, b->minimised_Nm, u->torque, a->wanted_mean_Nm, "minimised");
+    units_same(a->tolerance_Nm, b->tolerance_Nm, u->torque, 0.0, "tolerance");
+    units_same(a->worst_error_Nm, b->worst_error_Nm, u->torque, a->wanted_mean_Nm, "worst");
+    units_same(a->T_ripple_percent, b->T_ripple_percent, 1.0, 100.0, "ripple");
+    units_same(a->T_ripple_before_percent, b->T_ripple_before_percent, 1.0, 100.0, "ripple before");
+    units_same(a->torque_at_limit_Nm, b->torque_at_limit_Nm, u->torque, 0.0, "torque at the limit");
+    units_same(a->minimised_Nm, b->minimised_Nm, u->torque, a->wanted_mean_Nm, "minimised");
 }
 
 static double unit_of(const hci_limit *limit, const units *u)
@@ -285,11 +274,11 @@ static void same_limits(const hci_solution *a, const hci_solution *b, const unit
         const hci_limit *x = &a->limit[k], *y = &b->limit[k];
         TEST_ASSERT_EQUAL_INT(x->kind, y->kind);
         TEST_ASSERT_EQUAL_INT(x->binds, y->binds);
-        same(x->limit, y->limit, unit_of(x, u), 0.0, "limit");
-        same(x->value, y->value, unit_of(x, u), 0.0, "its value");
+        units_same(x->limit, y->limit, unit_of(x, u), 0.0, "limit");
+        units_same(x->value, y->value, unit_of(x, u), 0.0, "its value");
     }
-    same(a->exceeded_share, b->exceeded_share, 1.0, 1.0, "exceeded by");
-    same(a->peak_line_voltage_V, b->peak_line_voltage_V, units_V(u), 0.0, "voltage");
+    units_same(a->exceeded_share, b->exceeded_share, 1.0, 1.0, "exceeded by");
+    units_same(a->peak_line_voltage_V, b->peak_line_voltage_V, units_V(u), 0.0, "voltage");
 }
 
 static void same_solution(const hci_solution *a, const hci_solution *b, const units *u)
@@ -304,9 +293,9 @@ static void same_solution(const hci_solution *a, const hci_solution *b, const un
     same_currents(a, b, u);
     same_torque(a, b, u);
     same_limits(a, b, u);
-    same(a->loop.rpm_per_Hz, b->loop.rpm_per_Hz, 1.0, 0.0, "rpm per Hz");
-    same(a->loop.lead_rpm_per_Hz, b->loop.lead_rpm_per_Hz, 1.0, 0.0, "rpm per Hz, read ahead");
-    same(a->loop.added_Nm, b->loop.added_Nm, u->torque, 0.0, "what the loop adds");
+    units_same(a->loop.rpm_per_Hz, b->loop.rpm_per_Hz, 1.0, 0.0, "rpm per Hz");
+    units_same(a->loop.lead_rpm_per_Hz, b->loop.lead_rpm_per_Hz, 1.0, 0.0, "rpm per Hz, read ahead");
+    units_same(a->loop.added_Nm, b->loop.added_Nm, u->torque, 0.0, "what the loop adds");
 }
 
 static hci_status answer(const question *q, const units *u, hci_solution *answered)
@@ -326,12 +315,12 @@ static void test_solve_has_no_units(void)
     const units *const others[] = {&SMALL, &LARGE};
     for (size_t n = 0; n < sizeof QUESTION / sizeof *QUESTION; ++n) {
         hci_solution plain = {0};
-        share = QUESTION[n].share;
+        units_share = QUESTION[n].share;
         const hci_status status = answer(&QUESTION[n], &PLAIN, &plain);
         for (size_t k = 0; k < sizeof others / sizeof *others; ++k) {
             hci_solution other = {0};
-            snprintf(place, sizeof place, "question %zu, units %zu", n, k);
-            TEST_ASSERT_EQUAL_INT_MESSAGE(status, answer(&QUESTION[n], others[k], &other), place);
+            snprintf(units_place, sizeof units_place, "question %zu, units %zu", n, k);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(status, answer(&QUESTION[n], others[k], &other), units_place);
             same_solution(&plain, &other, others[k]);
             hci_solution_release(&other);
         }
