@@ -23,14 +23,19 @@ static void record(double friction_A, double weight_A, double d_A)
     }
 }
 
+static double value_of(const char *relation, const check_interpretation *as)
+{
+    for (size_t k = 0; k < hci_check_relation_count(); ++k)
+        if (strcmp(hci_check_relation(k)->name, relation) == 0)
+            return hci_check_relation_value(&data, hci_check_relation(k), as).found;
+    TEST_FAIL_MESSAGE(relation);
+    return NAN;
+}
+
 static double friction_way(void)
 {
     const check_interpretation as = hci_check_as_declared();
-    for (size_t k = 0; k < hci_check_relation_count(); ++k)
-        if (strcmp(hci_check_relation(k)->name, "friction_way") == 0)
-            return hci_check_relation_value(&data, hci_check_relation(k), &as).found;
-    TEST_FAIL_MESSAGE("friction_way");
-    return NAN;
+    return value_of("friction_way", &as);
 }
 
 void setUp(void)
@@ -76,11 +81,27 @@ static void test_what_does_not_tell(void)
     TEST_ASSERT_FALSE(isfinite(friction_way()));
 }
 
+/* Of files in which i_q accelerates the shaft, or brakes it: the mean of 1 and -1, and its opposite where
+ * currents are counted the other way. */
+static void test_the_way_that_accelerates(void)
+{
+    for (int first = -1; first <= 1; first += 2)
+        for (int second = -1; second <= 1; second += 2)
+            for (int sign = -1; sign <= 1; sign += 2) {
+                check_interpretation as = hci_check_as_declared();
+                record(1.0, 0.0, 0.5);
+                motor_run[0].current_way = first, motor_run[1].current_way = second;
+                as.current = sign;
+                TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.5 * sign * (first + second), value_of("motion_way", &as));
+            }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_fifth_of_the_current_is_plain);
     RUN_TEST(test_a_weight_is_no_friction);
     RUN_TEST(test_what_does_not_tell);
+    RUN_TEST(test_the_way_that_accelerates);
     return UNITY_END();
 }
