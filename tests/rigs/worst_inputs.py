@@ -54,3 +54,6 @@ write("runs1e5.csv", "file,role", (f"runs/{k}.csv,fit" for k in range(100000)))
 write("steps1e15.csv", SCENARIO + "duration,1e6,s", ["step,1e-9,s"])
 write("steps4e9.csv", SCENARIO + "duration,4,s", ["step,1e-9,s"])
 write("grid1e6.csv", "torque_Nm,speed_rpm", (f"{k * 1e-6:.6f},100" for k in range(1, 1000001)))
+write("motors1e5.csv", "motor,machine,target", (f"m{k},small,target.csv" for k in range(100000)))
+write("fleet1e5/fleet.csv", "motor,serial,batch,date,state,exit_code,verdict,reason,mean_Nm,worst_error_Nm,worst_order,peak_phase_A,loss_ratio_to_plain,words_digest",
+      (f"m{k},,,,done,0,reached,,2,0,6,{6.7 + k % 13 / 100:.2f},0.997,1389af16c6d39e29" for k in range(100000)))
