@@ -149,6 +149,9 @@ static void test_slow_noise(void)
 {
     record(6000, 12.3, &(strange){0.0, 0.0, 0.0, 0.0, 0.95});
     TEST_ASSERT_TRUE(is_slow());
+    for (size_t k = 0; k < run.count; ++k)
+        run.theta_m_rad[k] += 2.0 * REF_PI * 500.0; /* wherever the angle begins */
+    TEST_ASSERT_TRUE(is_slow());
     record(6000, 12.3, &(strange){0.0, 0.0, 0.0, 0.0, 0.5});
     TEST_ASSERT_FALSE(is_slow());
     record(6000, 12.3, &(strange){3.0 * NOISE_NM, 0.0, 9.7, 0.0, 0.0});
