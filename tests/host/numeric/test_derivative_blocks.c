@@ -1,4 +1,5 @@
-/* Sums of a block about its own middle, added to those of a window about another one: the sums over all. */
+/* Parts of the derivative: sums of a block about its own middle, added to those of a window about another
+ * one, are the sums over all; the usual step is the mean of those that are no gaps. */
 #include "host/numeric/derivative.c"
 
 #include "support/draws.h"
@@ -36,9 +37,20 @@ static void test_sums_about_another_origin(void)
     }
 }
 
+static void test_the_usual_step(void)
+{
+    double t[N];
+    for (size_t k = 0; k < N; ++k)
+        t[k] = 0.5 * (double)k + (k < 20 ? 0.0 : 100.0) + (k < 30 ? 0.0 : 1e4);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.5, usual_step(t, N, GAP));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.5, usual_step(t, 3, GAP));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, (0.5 * (N - 1) + 1e4 + 100.0) / (N - 1), usual_step(t, N, 1e9));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_sums_about_another_origin);
+    RUN_TEST(test_the_usual_step);
     return UNITY_END();
 }
