@@ -13,6 +13,8 @@
 #include "host/csv/number_cell.h"
 #include "host/csv/table.h"
 
+enum { PATH_SIZE = 4096 };
+
 typedef struct {
     const hci_csv *csv;
     const hci_csv_added *added;
@@ -111,5 +113,17 @@ hci_status hci_csv_write_with(const hci_csv *csv, const hci_csv_added *added, si
     hci_memory_free(w.readers);
     if (!status) return hci_output_commit(w.output, note);
     hci_output_discard(w.output);
+    return status;
+}
+
+hci_status hci_csv_copy(const char *path, hci_output *output, hci_note *note)
+{
+    char own[PATH_SIZE];
+    hci_csv csv = {.path = own};
+    if (snprintf(own, sizeof own, "%s", path) >= PATH_SIZE)
+        return hci_note_set(note, HCI_ERROR_INPUT, "%.200s…: the path is too long", path);
+    const hci_status status = hci_csv_load(&csv, note);
+    if (!status) hci_output_bytes(output, csv.text, strlen(csv.text));
+    hci_memory_free(csv.text);
     return status;
 }

@@ -16,6 +16,10 @@ typedef struct {
 hci_status hci_csv_write_with(const hci_csv *csv, const hci_csv_added *added, size_t count, const char *path,
                               hci_note *note);
 
+/* Appends a file as it stands, but in UTF-8 whatever it was saved in. HCI_ERROR_INPUT for what is no text,
+ * _MEMORY. */
+hci_status hci_csv_copy(const char *path, hci_output *output, hci_note *note);
+
 /* Writes one cell, in quotes where CSV needs them, and the comma after it. first: of its row, where # would
  * begin a comment. */
 void hci_csv_write_cell(hci_output *output, const char *cell, bool first);

@@ -1,6 +1,5 @@
 /* effects.csv, errors.csv, residual_spectrum.csv, summary.json, report.html and the corrected machine of a
  * diagnosis. */
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,6 +9,7 @@
 #include "hci/host/report/write.h"
 #include "host/csv/write.h"
 #include "host/diagnose/findings.h"
+#include "host/machine/folder.h"
 #include "host/report/page/page.h"
 #include "host/report/summary.h"
 #include "host/report/write_next.h"
@@ -117,25 +117,15 @@ static hci_status report_write(hci_output *out, const hci_diagnosis *d, const hc
 
 /* ---- the corrected machine ---- */
 
-/* A table of the machine as it is; one that is not there is none. */
+/* A table of the machine as it is, in UTF-8; one that is not there is none. */
 static hci_status table_copy(hci_output *out, const char *folder, const char *name, hci_note *note)
 {
-    char path[PATH_SIZE], part[4096];
-    hci_status status;
-    size_t length;
-    FILE *file;
+    char path[PATH_SIZE];
     if (snprintf(path, sizeof path, "%s/%s", folder, name) >= PATH_SIZE)
         return hci_note_set(note, HCI_ERROR_INPUT, "%.200s…: the path is too long", folder);
-    file = fopen(path, "rb");
-    if (!file && errno == ENOENT) return hci_output_without(out, name, note);
-    if (!file && errno == ENOMEM) return hci_note_memory(note, path, "reading it");
-    if (!file) return hci_note_set(note, HCI_ERROR_INPUT, "%s: %s", path, strerror(errno));
-    status = hci_output_file(out, name, note);
-    while (!status && (length = fread(part, 1, sizeof part, file)) > 0)
-        hci_output_text(out, "%.*s", (int)length, part);
-    if (!status && ferror(file)) status = hci_note_set(note, HCI_ERROR_INPUT, "%s: cannot be read", path);
-    fclose(file);
-    return status;
+    if (!hci_machine_has(path)) return hci_output_without(out, name, note);
+    const hci_status status = hci_output_file(out, name, note);
+    return status ? status : hci_csv_copy(path, out, note);
 }
 
 static hci_status folder_within(const char *folder, const char *name, char path[PATH_SIZE], hci_note *note)
