@@ -96,6 +96,30 @@ static void test_the_way_that_accelerates(void)
             }
 }
 
+/* Torque back less that forward, half, of a shaft that another machine turns: 1 where it brakes, by more than
+ * a fifth of what the torque varies by; a zero of the sensor is in both alike. */
+static double drag_way(double drag_Nm, double zero_Nm, double rms_Nm)
+{
+    const check_interpretation as = hci_check_as_declared();
+    record(0.0, 0.0, 0.0);
+    data.no_current_A = 0.3;
+    for (int k = 0; k < 2; ++k) {
+        motor_run[k].has_torque = true;
+        motor_run[k].torque_mean = zero_Nm + (k ? drag_Nm : -drag_Nm);
+        motor_run[k].torque_variance = rms_Nm * rms_Nm;
+    }
+    return value_of("drag_way", &as);
+}
+
+static void test_the_drag_of_a_shaft_that_is_turned(void)
+{
+    for (double size_Nm = 1e-3; size_Nm < 2e3; size_Nm *= 1e3)
+        for (int sign = -1; sign <= 1; sign += 2) {
+            TEST_ASSERT_EQUAL_DOUBLE(sign, drag_way(sign * 0.21 * size_Nm, 3.0 * size_Nm, size_Nm));
+            TEST_ASSERT_FALSE(isfinite(drag_way(sign * 0.19 * size_Nm, 3.0 * size_Nm, size_Nm)));
+        }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -103,5 +127,6 @@ int main(void)
     RUN_TEST(test_a_weight_is_no_friction);
     RUN_TEST(test_what_does_not_tell);
     RUN_TEST(test_the_way_that_accelerates);
+    RUN_TEST(test_the_drag_of_a_shaft_that_is_turned);
     return UNITY_END();
 }
