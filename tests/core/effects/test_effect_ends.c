@@ -87,8 +87,9 @@ static void test_what_stands_behind_a_list(void)
 
 /* ---- slow sensors ---- */
 
-/* A sensor's answer to a step, and its derivatives, where a second is so many units of time. */
-static void answer_in(double second, double torque[SAMPLES], double by_value[SAMPLES][2])
+/* A sensor's answer to a step, and its derivatives, where a second is so many units of time, at times that
+ * are uneven by a share of a step. */
+static void answer_in(double second, double uneven, double torque[SAMPLES], double by_value[SAMPLES][2])
 {
     const hci_effect_type *type = hci_effect_type_find("torque_sensor");
     const hci_effect_term term[] = {{parameter_of(type, "natural_frequency"), 0.0, 20.0 / second, NAN},
@@ -97,7 +98,7 @@ static void answer_in(double second, double torque[SAMPLES], double by_value[SAM
     const hci_effects effects = {&effect, 1};
     double time_s[SAMPLES];
     for (size_t k = 0; k < SAMPLES; ++k) {
-        time_s[k] = 1e-3 * second * (double)k;
+        time_s[k] = 1e-3 * second * ((double)k + (k % 5 == 4 ? uneven : 0.0));
         torque[k] = k < 5 ? 0.0 : 1.0;
         by_value[k][0] = by_value[k][1] = 0.0;
     }
@@ -109,14 +110,16 @@ static void answer_in(double second, double torque[SAMPLES], double by_value[SAM
 static void test_a_sensor_has_no_unit_of_time(void)
 {
     static double torque[2][SAMPLES], by_value[2][SAMPLES][2];
-    answer_in(1.0, torque[0], by_value[0]);
-    TEST_ASSERT_TRUE(fabs(by_value[0][30][0]) > 1e-4 && fabs(by_value[0][30][1]) > 1e-4);
-    for (double second = 0x1p-14; second < 0x1p15; second *= 0x1p4) {
-        answer_in(second, torque[1], by_value[1]);
-        for (size_t k = 0; k < SAMPLES; ++k) {
-            TEST_ASSERT_EQUAL_DOUBLE(torque[0][k], torque[1][k]);
-            TEST_ASSERT_DOUBLE_WITHIN(1e-9, by_value[0][k][0], by_value[1][k][0] / second);
-            TEST_ASSERT_DOUBLE_WITHIN(1e-9, by_value[0][k][1], by_value[1][k][1]);
+    for (double uneven = 0.0; uneven < 0.5; uneven += 0.2) {
+        answer_in(1.0, uneven, torque[0], by_value[0]);
+        TEST_ASSERT_TRUE(fabs(by_value[0][30][0]) > 1e-4 && fabs(by_value[0][30][1]) > 1e-4);
+        for (double second = 0x1p-14; second < 0x1p15; second *= 0x1p4) {
+            answer_in(second, uneven, torque[1], by_value[1]);
+            for (size_t k = 0; k < SAMPLES; ++k) {
+                TEST_ASSERT_EQUAL_DOUBLE(torque[0][k], torque[1][k]);
+                TEST_ASSERT_DOUBLE_WITHIN(1e-9, by_value[0][k][0], by_value[1][k][0] / second);
+                TEST_ASSERT_DOUBLE_WITHIN(1e-9, by_value[0][k][1], by_value[1][k][1]);
+            }
         }
     }
 }
