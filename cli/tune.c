@@ -43,7 +43,7 @@ static int run(const cli_arguments *arguments)
     t->commands = (cli_tune_commands){&cli_init, &cli_harmonics, &cli_emit};
     hci_status status = steps(a, t, &note);
     int code;
-    if (status && t->is_own) cli_written_remove(t->out); /* so that the same call can be made again */
+    if (status) cli_written_remove(t->out); /* so that the same call can be made again */
     cli_replaced_settle(t->out, t->aside, !status);
     if (!status && cli_is_wordy()) cli_show_tuning(t);
     if (!status && a->given[JSON]) status = cli_print_json(hci_tuning_json(&t->tuning), &note);
