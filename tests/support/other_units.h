@@ -14,7 +14,7 @@ typedef struct {
 } units;
 
 static const units PLAIN = {1.0, 1.0, 1.0}, SMALL = {0x1p-6, 0x1p-14, 0x1p-4},
-                   LARGE = {0x1p10, 0x1p12, 0x1p4};
+                   LARGE = {0x1p10, 0x1p12, 0x1p4}, COILS = {0x1p-6, 0x1p8, 0x1p-2}; /* hundreds of henries */
 
 static double units_share;   /* of the larger one, within which two numbers are the same */
 static char units_place[80]; /* which case it is, for messages */

@@ -71,7 +71,7 @@ static hci_fleet_fit fit_in(const units *u)
 
 static void test_a_fit_has_no_units(void)
 {
-    const units *const others[] = {&SMALL, &LARGE};
+    const units *const others[] = {&SMALL, &LARGE, &COILS};
     const hci_fleet_fit plain = fit_in(&PLAIN);
     size_t told = 0;
     units_share = 1e-6;

@@ -161,7 +161,7 @@ static hci_simulation play(size_t n, const units *u)
 static void test_a_drive_has_no_units(void)
 {
     static const units tiny = {1.0, 0x1p-12, 1.0}; /* inductances far below a millihenry */
-    const units *const others[] = {&SMALL, &LARGE, &tiny};
+    const units *const others[] = {&SMALL, &LARGE, &COILS, &tiny};
     units_share = SAME;
     for (size_t n = 0; n < sizeof QUESTION / sizeof *QUESTION; ++n) {
         hci_simulation plain = play(n, &PLAIN);

@@ -296,6 +296,7 @@ static void same_solution(const hci_solution *a, const hci_solution *b, const un
     units_same(a->loop.rpm_per_Hz, b->loop.rpm_per_Hz, 1.0, 0.0, "rpm per Hz");
     units_same(a->loop.lead_rpm_per_Hz, b->loop.lead_rpm_per_Hz, 1.0, 0.0, "rpm per Hz, read ahead");
     units_same(a->loop.added_Nm, b->loop.added_Nm, u->torque, 0.0, "what the loop adds");
+    TEST_ASSERT_EQUAL_INT(a->loop.leaves_out_back_emf, b->loop.leaves_out_back_emf);
 }
 
 static hci_status answer(const question *q, const units *u, hci_solution *answered)
@@ -312,7 +313,7 @@ static hci_status answer(const question *q, const units *u, hci_solution *answer
 
 static void test_solve_has_no_units(void)
 {
-    const units *const others[] = {&SMALL, &LARGE};
+    const units *const others[] = {&SMALL, &LARGE, &COILS};
     for (size_t n = 0; n < sizeof QUESTION / sizeof *QUESTION; ++n) {
         hci_solution plain = {0};
         units_share = QUESTION[n].share;

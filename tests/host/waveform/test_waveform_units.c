@@ -159,7 +159,7 @@ static void same_waveform(const hci_waveform *a, const hci_waveform *b, const un
 
 static void test_a_waveform_has_no_units(void)
 {
-    const units *const others[] = {&SMALL, &LARGE};
+    const units *const others[] = {&SMALL, &LARGE, &COILS};
     units_share = 1e-6;
     for (size_t n = 0; n < sizeof RECORDED / sizeof *RECORDED; ++n) {
         hci_waveform plain = found_in(n, &PLAIN);
