@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/math/vector.h"
 #include "hci/host/csv/csv.h"
 #include "hci/math/harmonic.h"
 #include "host/angle/between_steps.h"
@@ -682,6 +683,29 @@ static hci_status read_torque(reader *r)
 
 /* ---- the run ---- */
 
+/* Numbers that are too large for what is made of them, as an angle of 1e308 times the pole pairs. */
+static hci_status check_finite(const reader *r)
+{
+    const hci_run *run = r->run;
+    char shown[HCI_QUOTE_PATH_SIZE];
+    const struct {
+        const double *value;
+        size_t count;
+        const char *what;
+    } list[] = {{run->theta_m_rad, run->count, "angles"},
+                {run->speed_rad_per_s, run->count, "speeds"},
+                {run->i_A, 3 * run->count, "currents"},
+                {run->v_V, 3 * run->count, "voltages"},
+                {run->torque_Nm, run->count, "torques"}};
+    for (size_t k = 0; k < sizeof list / sizeof *list; ++k)
+        if (list[k].value != NULL && !hci_vector_finite(list[k].count, list[k].value))
+            return hci_note_set(r->note, HCI_ERROR_INPUT,
+                                "%s: found numbers of which no finite %s come, expected angles, currents and "
+                                "torques as they are measured; remove the rows with numbers such as 1e308",
+                                hci_quote_path(run->name, shown), list[k].what);
+    return HCI_OK;
+}
+
 static hci_status read_all(reader *r)
 {
     hci_run *run = r->run;
@@ -698,6 +722,7 @@ static hci_status read_all(reader *r)
     if (!status) status = read_voltages(r);
     if (!status) status = read_column(r, HCI_RUN_TEMPERATURE, &run->temperature_C);
     if (!status) status = read_torque(r);
+    if (!status) status = check_finite(r);
     if (!status && run->torque_source == HCI_TORQUE_NONE)
         hci_run_columns_torque_like(&r->columns, run->torque_like);
     if (!status && (run->speed_rad_per_s == NULL || run->speed_window > 0) && !has(r, HCI_RUN_SPEED))
