@@ -53,7 +53,7 @@ static void make(int alone)
     }
     precision[0] = precision[1] = 1e-6;
     l = (leaving){.search = &search, .model = &model, .precision = held};
-    l.equations = (hci_run_equations){.groups = {run, RUNS}, .parts = 1, .run = run, .precision = precision};
+    l.equations = (hci_run_equations){.groups = {run, RUNS}, .run = run, .precision = precision};
     hold(&l, type("friction"));
 }
 
