@@ -304,6 +304,9 @@ static hci_status certain_stays(hci_search *s, hci_attribution *a, const bool *n
 
 /* ---- saturated iron ---- */
 
+enum { ENOUGH_RUNS = 6 }; /* to be left out, of which others tell what one shows */
+
+#define FORETOLD    0.01 /* of what effects explain, that they leave in runs left out: a tenth of the error */
 #define COARSE      2.0  /* times the resolution: noise that hides more than a model is asked for */
 #define LITTLE_LEFT 0.25 /* of the torque that is not explained without the iron */
 
@@ -327,15 +330,21 @@ static hci_status whole_try(hci_search *s, hci_fitted_model *model, hci_fitted_m
     return hci_search_renew(s, known, note);
 }
 
-/* Whether nothing but noise is left. */
+/* Whether nothing but noise is left, and runs left out are described. */
 static hci_status is_all(hci_search *s, hci_fitted_model *model, bool *all, hci_note *note)
 {
-    const hci_status status = hci_search_is_noise(s, &model->candidates, all, note);
-    return status ? status : hci_search_renew(s, model, note);
+    double share = 0.0;
+    hci_status status = hci_search_is_noise(s, &model->candidates, all, note);
+    if (!status) status = hci_search_renew(s, model, note);
+    if (status || !*all) return status;
+    *all = hci_regression_runs_in_use(s->regression) >= ENOUGH_RUNS;
+    if (*all) status = hci_search_unpredicted(s, &model->candidates, &share, note);
+    *all = *all && share < FORETOLD;
+    return status;
 }
 
-/* Where single terms leave nothing but coarse noise, the recordings ask for no more. Keeps the model with
- * these, which may say of runs left out what the whole co-energy does not. */
+/* Where single terms leave nothing but coarse noise, in runs left out too, the recordings ask for no more.
+ * Keeps the model with these, which may say of runs left out what the whole co-energy does not. */
 static hci_status coenergy_try(hci_search *s, hci_fitted_model *model, hci_note *note)
 {
     hci_fitted_model single = {0};

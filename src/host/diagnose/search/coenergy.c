@@ -31,6 +31,7 @@ static const double WIDTHS[] = {1.0, 3.0, 10.0, 30.0, 100.0};
 #define SELECTED 1.4
 #define LEAST    0.15 /* of the resolution: a torque that is large enough for a name */
 #define SHOWN    1.5  /* of the resolution, as an amplitude: no order above that has more is looked for */
+#define QUIET    2.0  /* noise over the resolution, up to which all orders are told */
 #define NO_WORSE 0.01 /* of the mean logarithm of the squares */
 #define FLOOR    0.05 /* mean square of a run, in units of its noise, below which it is as good as can be */
 
@@ -311,10 +312,11 @@ static int resolved_order(const hci_regression *e)
     return (int)order;
 }
 
-/* Of them one above those that a run shows. */
+/* Of them, in noise, one above those that a run shows. */
 static int highest_order(const hci_search *s)
 {
     const int resolved = resolved_order(s->regression);
+    if (!(hci_search_noise_rms(s) > QUIET * s->resolution_Nm)) return resolved;
     const int shown =
         hci_highest_order_shown(s->regression, OF_IRON, resolved, SHOWN * s->resolution_Nm) + OF_IRON;
     return (int)fmin(resolved, fmax(LEAST_ORDER, shown));

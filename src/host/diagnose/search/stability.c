@@ -203,7 +203,7 @@ static bool has_orders(const hci_candidates *model, const hci_effect_type *type)
 }
 
 /* Adds the runs of which the others do not tell the values of the type itself, such as friction of the only
- * one of its speed. Returns how many are left. */
+ * one of its speed, among runs without a current. Returns how many are left. */
 static hci_status unproven_add(const leaving *l, bool *untold, size_t *told, hci_note *note)
 {
     const hci_groups *groups = &l->equations.groups;
@@ -228,7 +228,8 @@ static hci_status worth_in_told(const leaving *l, const hci_effect_type *type, d
     if (!untold) return hci_note_memory(note, NULL, "leaving runs out");
     hci_status status = untold_find(l, type, untold, told, note);
     if (!status && *told >= HCI_LEAST_GROUPS) *worth = worth_in(l, untold);
-    if (!status && *told >= HCI_LEAST_GROUPS && *worth < 0.0 && !has_orders(l->model, type))
+    const bool asks_for_values = l->search->no_current && !has_orders(l->model, type);
+    if (!status && *told >= HCI_LEAST_GROUPS && *worth < 0.0 && asks_for_values)
         status = unproven_add(l, untold, told, note);
     hci_memory_free(untold);
     return status;
