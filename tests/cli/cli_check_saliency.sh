@@ -86,4 +86,22 @@ check "not said how it is written" grep -q 'write --inductance-d 0.01' "$work/st
 run 2 $tune $sheet --flux 0.15 --inductance-q 0.05 -o alone
 check "one without the other" grep -q 'without --inductance-d' "$work/stderr"
 
+# ---- an eccentric rotor: once a turn, which turns its sign with i_d, is no zero that has moved
+
+eccentric() { # FILE I_d_A I_q_A
+    awk -v d="$2" -v q="$3" 'BEGIN { srand(q - d); turn = 6.283185307179586
+        print "time_s,theta_m_rad,ia_A,ib_A,ic_A,torque_Nm"
+        for (k = 0; k < 3000; ++k) { x = 3 * turn * k / 3000; a = 3 * x
+            T = 4.5 * (0.18 * q - 0.0053 * d * q) + 0.006 * (q + 2 * d) * sin(x + 0.6) + 0.02 * sin(18 * a)
+            row = sprintf("%.6f,%.6f", x / 3.14, x)
+            for (s = 0; s < 3; ++s) row = row sprintf(",%.4f", q * sin(a - s * turn / 3) - d * cos(a - s * turn / 3) + 0.02 * (rand() - 0.5))
+            print row sprintf(",%.5f", T + 0.02 * (rand() - 0.5)) } }' >"$1"
+}
+eccentric ecc7.csv 0 7; eccentric ecc14.csv 0 14; eccentric ecc20.csv 0 20; eccentric ecc_d.csv -14 14
+mkdir motor3
+printf "name,value,unit\npole_pairs,3,1\nslots,36,1\nrated_current,20,A\nresistance,0.9,ohm\ninductance_d,0.005,H\ninductance_q,0.0103,H\n" >motor3/machine.csv
+printf 'order,amplitude_Nm_per_A,phase_rad\n1,0.54,0\n' >motor3/back_emf.csv
+run 0 check motor3 ecc7.csv ecc14.csv ecc20.csv ecc_d.csv
+says '^consistent: '
+
 finish

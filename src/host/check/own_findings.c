@@ -261,15 +261,29 @@ static bool is_shifted(const run_zeros *z, check_run *a, check_run *b, int leave
            fabs(shift->shift_rad) > (leave > 0 ? 0.0 : LEAST_SHIFT_rad) + LATE_s * fabs(apart);
 }
 
-/* Whether orders that no current makes lie elsewhere in the turn. What a torque makes of them, one the other way
- * makes with the other sign, which looks like a place half a period on. */
-static bool lie_elsewhere(const run_zeros *z, const check_run *a, const check_run *b)
+/* Electrical, by which the place of a ripple is off. */
+#define PLACE_rad 0.35
+
+/* Whether the ripple lies as far on as the zeros do: one order alone, such as that of an eccentric rotor,
+ * which goes with the load, fits at any place. */
+static bool is_as_far(const run_zero *a, const run_zero *b, const check_ripple_shift *shift,
+                      double pole_pairs)
+{
+    const double apart = fabs(remainder(a->zero_rad - b->zero_rad, 2.0 * HCI_PI));
+    const double on = fabs(remainder(pole_pairs * shift->shift_rad, 2.0 * HCI_PI));
+    return !shift->is_unique || fabs(on - apart) < PLACE_rad + a->error_rad + b->error_rad;
+}
+
+/* Whether orders that no current makes lie elsewhere in the turn. What a torque makes of them, one the other
+ * way makes with the other sign, which looks like a place half a period on. */
+static bool lie_elsewhere(const run_zeros *z, const run_zero *a, const run_zero *b)
 {
     check_ripple_shift shift;
     check_run *run = z->data->run;
-    if (torque_per_ampere(z, a) * torque_per_ampere(z, b) < 0.0) return false;
-    return is_shifted(z, &run[a - run], &run[b - run], (int)z->data->value[CHECK_pole_pairs], NOT_ALIKE,
-                      &shift);
+    const double pole_pairs = z->data->value[CHECK_pole_pairs];
+    if (torque_per_ampere(z, a->run) * torque_per_ampere(z, b->run) < 0.0) return false;
+    return is_shifted(z, &run[a->run - run], &run[b->run - run], (int)pole_pairs, NOT_ALIKE, &shift) &&
+           is_as_far(a, b, &shift, pole_pairs);
 }
 
 /* Half a turn is a sign as well, and a third the columns of other phases. */
@@ -341,7 +355,7 @@ static double beyond_errors(const run_zeros *z, const run_zero *a, const run_zer
     const double beyond =
         fabs(remainder(a->zero_rad - b->zero_rad, 2.0 * HCI_PI)) - a->error_rad - b->error_rad;
     const double salient = a->salient_rad + b->salient_rad;
-    return beyond > 0.0 && beyond <= salient && lie_elsewhere(z, a->run, b->run) ? beyond : beyond - salient;
+    return beyond > 0.0 && beyond <= salient && lie_elsewhere(z, a, b) ? beyond : beyond - salient;
 }
 
 /* What a current that is read late, or behind a filter, turns by at the largest speed. */
@@ -389,7 +403,7 @@ static bool find_moved(const run_zeros *z, hci_check *check)
             first = a, second = b;
         }
     if (!first.run) return false;
-    if (!lie_elsewhere(z, first.run, second.run) && turn_with_speed(z)) return false;
+    if (!lie_elsewhere(z, &first, &second) && turn_with_speed(z)) return false;
     check->findings = 0; /* of one zero for all */
     say_moved(z, &first, &second, check);
     return true;
