@@ -145,21 +145,29 @@ static bool turns_untimed(const hci_run *r)
     return r->speed_rad_per_s && r->speed_rad_per_s[0] != 0.0;
 }
 
+static bool is_one_speed(const range_of_speeds *s)
+{
+    if (s->least > s->most) return true;
+    const double slow = fmin(fabs(s->least), fabs(s->most)), fast = fmax(fabs(s->least), fabs(s->most));
+    return s->least * s->most > 0.0 && fast < ONE_SPEED * slow;
+}
+
 /* Whether all that a torque sensor has measured in time is of one speed, or none of what it measured has a
- * time: one that reads late turns the orders by an angle that is not told then. */
+ * time: one that reads late turns the orders by an angle that is not told then. What is measured without a
+ * current at one speed and with one at another has no order in common but those of the cogging torque, which
+ * the load has beside others. */
 static bool has_one_speed(const cli_tuning *t)
 {
-    range_of_speeds s = {HUGE_VAL, -HUGE_VAL};
+    range_of_speeds s[2] = {{HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, -HUGE_VAL}};
     bool untimed = false;
     for (size_t k = 0; k < t->runs.count; ++k) {
         const hci_run *r = &t->runs.run[k];
         if (r->torque_source != HCI_TORQUE_MEASURED) continue;
-        if (r->time_s && r->speed_rad_per_s) add_speeds(r, &s);
+        if (r->time_s && r->speed_rad_per_s) add_speeds(r, &s[cli_tune_has_no_current(t, r)]);
         untimed = untimed || turns_untimed(r);
     }
-    const double least = s.least, most = s.most;
-    if (least > most) return untimed;
-    return least * most > 0.0 && fmax(fabs(least), fabs(most)) < ONE_SPEED * fmin(fabs(least), fabs(most));
+    if (s[0].least > s[0].most && s[1].least > s[1].most) return untimed;
+    return is_one_speed(&s[0]) && is_one_speed(&s[1]);
 }
 
 bool cli_tune_lacks_times(const cli_tuning *t)

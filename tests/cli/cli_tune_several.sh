@@ -60,4 +60,12 @@ says 'Without d3\.csv and d4\.csv: the currents of the other loads have one dire
 run 0 tune q?.csv --pole-pairs 4 --flux 0.1 --slots 24 --rated-current 5 -o along
 check "a direction that is the only one" [ "$(grep -c 'have one direction in the rotor frame, and there' "$work/stdout")" -eq 0 ]
 
+# without a current backward, and with one forward: two speeds that have nothing but cogging torque in common
+aside b0.csv -12 0 0 0 7
+aside f0.csv 12 0 0 0 8
+run 0 tune b0.csv q2.csv q3.csv --pole-pairs 4 --flux 0.1 --slots 24 --rated-current 5 -o apart
+says '^tuned.* if the torque sensor is in time, which one speed does not tell'
+run 0 tune b0.csv f0.csv q2.csv q3.csv --pole-pairs 4 --flux 0.1 --slots 24 --rated-current 5 -o bothways
+check "two speeds without a current are one" [ "$(grep -c 'which one speed does not tell' "$work/stdout")" -eq 0 ]
+
 finish
