@@ -6,7 +6,6 @@
 
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
-#include "host/numeric/statistics.h"
 
 #define LARGEST_RAD (HCI_PI / 180.0)
 #define ROUNDING    1e-9 /* rad, that is no step */
