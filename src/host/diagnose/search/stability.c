@@ -203,11 +203,12 @@ static bool has_orders(const hci_candidates *model, const hci_effect_type *type)
 }
 
 /* Adds the runs of which the others do not tell the values of the type itself, such as friction of the only
- * one of its speed, among runs without a current. Returns how many are left. */
+ * one of its speed, among runs without a current. told: out, how many are left. */
 static hci_status unproven_add(const leaving *l, bool *untold, size_t *told, hci_note *note)
 {
     const hci_groups *groups = &l->equations.groups;
-    double *all_in = hci_memory_new(2 * groups->count + 1, sizeof *all_in), *fall = all_in + groups->count;
+    double *all_in = hci_memory_new(2 * groups->count + 1, sizeof *all_in);
+    double *fall = all_in ? all_in + groups->count : NULL;
     const bool made = all_in && hci_all_in_squares(groups, l->equations.precision, all_in) &&
                       hci_left_out_falls(groups, l->equations.precision, fall);
     *told = 0;
