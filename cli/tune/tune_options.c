@@ -42,9 +42,12 @@ const cli_option cli_tune_options[] = {
     [TUNE_SPEED] = {"speed", 0, CLI_NUMBER, "RPM",
                     .help = "with --bandwidth: mechanical, at which the bound has what the loop adds",
                     .low = -1e7, .high = 1e7},
-    [TUNE_WORK] = {"work", 0, CLI_NUMBER, "TIMES",
-                   .help = "how much the search for effects may do: times the usual, some 5 s [1]",
-                   .low = 0.01, .high = 1e4},
+    [TUNE_WORK] =
+        {"work", 0, CLI_NUMBER, "TIMES",
+         .help =
+             "how much the search for effects may do: times the usual of diagnose, some 5 s [" CLI_TUNE_WORK
+             "]",
+         .low = 0.01, .high = 1e4},
     [TUNE_NAME] = {"name", 0, CLI_TEXT, "ID", .help = "of the C table [tuned]"},
     [TUNE_OUT] = {"out", 'o', CLI_FOLDER, "FOLDER", .help = "where everything goes; a new folder"},
     [TUNE_HOLDING] = CLI_HOLDING_OPTION,

@@ -37,6 +37,9 @@ enum {
     CLI_COMMON_KEYS
 };
 
+/* --work where it is not given: who waits for a table waits a minute rather than for another recording. */
+#define CLI_TUNE_WORK "4"
+
 extern const cli_option cli_tune_options[];
 
 #endif

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cli/command/parse.h"
@@ -24,13 +25,15 @@
 hci_status cli_tune_diagnose(cli_tuning *t, hci_note *note)
 {
     const cli_arguments *a = t->arguments;
-    const hci_diagnose_options options = {.progress = cli_progress, .work = cli_number_or(a, TUNE_WORK, 0.0)};
+    const char *work = a->given[TUNE_WORK] ? a->value[TUNE_WORK] : CLI_TUNE_WORK;
+    const hci_diagnose_options options = {.progress = cli_progress,
+                                          .work = cli_number_or(a, TUNE_WORK, strtod(CLI_TUNE_WORK, NULL))};
     char folder[CLI_TUNE_PATH];
     cli_tune_line c = {{"diagnose", t->machine, "--runs", t->list}, 4};
     if (cli_tune_is_blocked(t)) return HCI_OK;
     cli_tune_path(t, "diagnose", folder);
     if (a->given[TUNE_HOLDING]) cli_tune_add_option(&c, "holding", NULL);
-    if (a->given[TUNE_WORK]) cli_tune_add_option(&c, "work", a->value[TUNE_WORK]);
+    cli_tune_add_option(&c, "work", work);
     cli_tune_add_reading(&c, t);
     cli_tune_add(&c, "-o");
     cli_tune_add(&c, folder);

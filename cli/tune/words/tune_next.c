@@ -62,9 +62,9 @@ static void say_next_on_machine(cli_tuning *t)
         hci_tuning_say(
             &t->tuning, HCI_TUNING_NEXT,
             "Before another recording: the search for effects ended before all had been compared. "
-            "It gets further with --work 4, which takes up to four times as long%s, or with MACHINE "
+            "It gets further with --work %g, which takes up to four times as long%s, or with MACHINE "
             "--runs LIST and what is known in MACHINE/effects.csv.",
-            t->runs.count > 1 ? ", with fewer logs" : "");
+            t->diagnosis.further_work, t->runs.count > 1 ? ", with fewer logs" : "");
     else if (!has_sensor(t))
         hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
                        "On the same bench: the same slow turn forward and back with the table in the drive "

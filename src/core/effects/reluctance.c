@@ -72,6 +72,7 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
     if (!survey->one_sided) hci_effect_propose(to, DQ + 1, 1, 0.0, 4.0, expected_H(survey));
     for (int n = 2; n <= most; n += n == 2 ? 4 : 6)
         for (int k = 0; k < 3; ++k) {
+            if (k != 1 && survey->flows_d_A < HARDLY * survey->current_A) continue;
             hci_effect_propose(to, EVEN[k], 1, n, n == 2 ? UNSYMMETRIC : USUAL, 0.0);
             hci_effect_propose(to, ODD[k], 1, n, UNSYMMETRIC, 0.0);
         }

@@ -79,11 +79,12 @@ static double expected_Nm(const hci_effect_survey *survey, int degree, int order
 
 #define HARDLY 0.05 /* of the current: an i_d that is ripple, errors of the sensors or of the angle */
 
-/* Of the mean, T = p C (a i_d^{a-1} i_q^{b+1} − b i_d^{a+1} i_q^{b-1}): where no i_d was given, only that of
- * i_d i_q^b is seen, and its ripple would give the others a size that nobody has measured. */
+/* T = n p S' i_d^a i_q^b + p S (a i_d^{a-1} i_q^{b+1} − b i_d^{a+1} i_q^{b-1}): where no i_d was given, only
+ * the mean of i_d i_q^b and the ripple of i_q^b are seen; that of i_d i_q^{b-1} looks the same, and what
+ * little i_d there is would give the others a size that nobody has measured. */
 static bool needs_direct(const hci_effect_survey *survey, size_t monomial, int order)
 {
-    return order == 0 && MONOMIAL[monomial].a != 1 && survey->flows_d_A < HARDLY * survey->current_A;
+    return MONOMIAL[monomial].a != (order == 0) && survey->flows_d_A < HARDLY * survey->current_A;
 }
 
 /* One order of the power d^a q^b. A rotor that looks alike both ways round has cos for even and sin for odd

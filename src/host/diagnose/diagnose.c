@@ -30,6 +30,7 @@
 #define RESOLUTION 5e-4 /* of the largest rms torque */
 #define REPEATED   0.1  /* of the square of what is left beside noise, that may differ from turn to turn */
 #define DROWNED    0.25 /* of the torque of interest: noise beside which nothing is complete */
+#define FURTHER    4.0  /* times its limit, that a search takes next */
 #define SUSPICION  0.35 /* of the limit of work, that a search without a run may take that is suspected */
 #define AGAINST    0.05 /* of the torque per ampere, that voltages which agree to 2 % exclude */
 
@@ -876,6 +877,7 @@ hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *decl
     const task all = {machine, declared, runs, options, NULL, NULL, NULL, 0.0};
     hci_status status = diagnose_runs(&all, diagnosis, note);
     if (!status) status = origin_fill(&all, diagnosis, note);
+    diagnosis->further_work = FURTHER * (options->work > 0.0 ? options->work : 1.0);
     if (status) {
         hci_diagnosis_release(diagnosis);
         return status;

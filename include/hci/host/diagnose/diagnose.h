@@ -155,8 +155,10 @@ typedef struct hci_again hci_again;
 
 /* What was found. Start with {0}. */
 typedef struct {
-    hci_diagnosis_verdict verdict;          /* in a word */
-    hci_work_end search;                    /* unless complete, of the best model that it had found */
+    hci_diagnosis_verdict verdict; /* in a word */
+    hci_work_end search;           /* unless complete, of the best model that it had found */
+    double further_work; /* times the usual limit, that a search which reached its own may take next; as in
+                          * the options, of an empty diagnosis 0: four times that */
     hci_finding finding[HCI_MOST_FINDINGS]; /* most important first */
     size_t findings;                        /* entries of finding in use */
     hci_effects_data effects;               /* of the corrected machine: declared ones and added ones */

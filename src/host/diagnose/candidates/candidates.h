@@ -97,8 +97,6 @@ typedef struct {
     const bool *denied; /* without these, of each type; NULL: all */
     bool one_gain;      /* the model shows a gain of the torque sensor, whatever the residual does */
     bool has_neutral;   /* of the machine */
-    bool symmetric;     /* without means of the torque that keep their sign with the load, where no load tells
-                           them */
 } hci_candidates_source;
 
 /* Whether all runs in use are tables of torques over i_d and i_q, which no sensor of an angle has read. */

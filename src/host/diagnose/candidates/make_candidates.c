@@ -239,7 +239,7 @@ static hci_effect_survey survey_of(const hci_candidates_source *s)
             x.standing_current_A = fmax(x.standing_current_A, fabs(f->standing_A[phase]));
     }
     x.has_temperature = warms(s);
-    x.one_sided = s->symmetric && hci_candidates_are_one_sided(s->samples, s->use);
+    x.one_sided = hci_candidates_are_one_sided(s->samples, s->use);
     x.loaded_both_ways = are_loaded_both_ways(s->samples, s->use);
     x.reference_current_A = s->reference_current_A > 0.0 ? s->reference_current_A : x.current_A;
     return x;

@@ -75,7 +75,7 @@ static hci_status evidence_make(const hci_machine_data *machine, const hci_effec
     b->any = b->fit + runs->count;
     for (size_t k = 0; k < runs->count; ++k) {
         b->any[k] = true;
-        b->fit[k] = runs->role[k] == HCI_ROLE_FIT;
+        b->fit[k] = runs->role[k] == HCI_ROLE_FIT && runs->run[k].torque_source != HCI_TORQUE_NONE;
         e->sum_deviation_A[k] = machine->has_neutral ? (double)NAN : sum_deviation_A(&runs->run[k]);
     }
     return HCI_OK;

@@ -4,6 +4,7 @@
 
 #include "host/base/memory.h"
 #include "host/diagnose/fit/linearise.h"
+#include "host/diagnose/fit/load_range.h"
 
 /* Precisions of the columns; nothing is expected of the candidates themselves after that. */
 static void precision_take(hci_candidates *list, double *precision)
@@ -42,10 +43,9 @@ static hci_status group_add(void *context, const hci_regression *part, size_t ru
     const grouping *g = context;
     hci_normal_equations *normal = &g->x->run[g->x->groups.count];
     const hci_status status = hci_regression_normal(part, g->list, false, normal, note);
-    (void)run;
     if (status) return status;
     count_from_zero(g->list, normal);
-    ++g->x->groups.count;
+    g->x->beyond[g->x->groups.count++] = hci_run_is_beyond(part, run);
     return HCI_OK;
 }
 
@@ -58,8 +58,9 @@ hci_status hci_run_equations_make(const hci_regression *e, const hci_candidates 
     hci_status status = hci_candidates_copy(candidates, &list, note);
     if (status) return status;
     x->run = hci_memory_new(runs * parts + 1, sizeof *x->run);
+    x->beyond = hci_memory_new(runs * parts + 1, sizeof *x->beyond);
     x->precision = hci_memory_new(hci_candidates_terms_in(&list) + 1, sizeof *x->precision);
-    if (!x->run || !x->precision) status = hci_note_memory(note, NULL, "leaving runs out");
+    if (!x->run || !x->beyond || !x->precision) status = hci_note_memory(note, NULL, "leaving runs out");
     x->groups.group = x->run;
     if (!status) precision_take(&list, x->precision);
     if (!status)
@@ -74,6 +75,7 @@ void hci_run_equations_release(hci_run_equations *x)
     for (size_t r = 0; r < x->groups.count; ++r)
         hci_normal_equations_release(&x->run[r]);
     hci_memory_free(x->run);
+    hci_memory_free(x->beyond);
     hci_memory_free(x->precision);
     memset(x, 0, sizeof *x);
 }

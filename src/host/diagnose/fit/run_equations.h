@@ -14,6 +14,7 @@
 typedef struct {
     hci_groups groups;         /* the runs in use in their order, or parts of them */
     hci_normal_equations *run; /* what groups stands for */
+    bool *beyond;              /* of each group, whether its load is beyond those of all other runs */
     double *precision; /* of each column: one over the variance that is expected of its value; 0: any */
 } hci_run_equations;
 

@@ -424,7 +424,6 @@ static hci_status convention_judge(hci_search *s, hci_attribution *a, hci_note *
 static hci_status model_find(hci_search *s, hci_attribution *a, hci_note *note)
 {
     hci_status status = hci_search_rounds(s, &a->model, note);
-    if (!status) status = hci_search_symmetric(s, &a->model, note);
     if (!status) status = hci_search_without_denied(s, &a->model, note);
     if (!status && s->options->only_complete && hci_search_is_over(s)) status = HCI_ERROR_STOPPED;
     if (status) return status;

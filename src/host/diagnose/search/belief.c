@@ -4,8 +4,8 @@
 
 #include "host/diagnose/fit/cancelling.h"
 #include "host/diagnose/fit/model.h"
-#include "host/diagnose/search/brakes.h"
 #include "host/diagnose/fit/unlike_iron.h"
+#include "host/diagnose/search/brakes.h"
 #include "host/machine/torque_constant.h"
 
 #define LEAST_CONSTANT 0.5  /* of the torque per ampere that is declared: a correction leaves no less */
@@ -178,17 +178,35 @@ hci_status hci_search_keep_believed(hci_search *s, hci_fitted_model *model, hci_
     return status;
 }
 
-/* A type that brakes and would drive, or of the iron's mean that keeps its sign with the load or grows faster
- * than the current, or whose terms cancel; NULL: none. */
+/* A type that brakes and would drive, or whose terms cancel; NULL: none. */
 static hci_status unnatural_find(const hci_search *s, const hci_candidates *candidates,
                                  const hci_effect_type **type, hci_note *note)
 {
-    hci_status status = hci_brakes_find_driving(s->regression, candidates, type, note);
-    if (!status && !*type) status = hci_cancelling_find(s->regression, candidates, type, note);
-    for (size_t k = 0; k < candidates->count && !status && !*type; ++k)
-        if (hci_mirror_is_broken(s->regression, candidates, k) ||
-            hci_iron_would_rise(s->regression, candidates, k))
-            *type = candidates->candidate[k].type;
+    const hci_status status = hci_brakes_find_driving(s->regression, candidates, type, note);
+    return status || *type ? status : hci_cancelling_find(s->regression, candidates, type, note);
+}
+
+/* Of the iron's mean, a term that keeps its sign with the load or grows faster than the current; their
+ * number: none. */
+static size_t unnatural_mean(const hci_search *s, const hci_candidates *candidates)
+{
+    size_t k = 0;
+    while (k < candidates->count && !hci_mirror_is_broken(s->regression, candidates, k) &&
+           !hci_iron_would_rise(s->regression, candidates, k))
+        ++k;
+    return k;
+}
+
+/* What such a term was there for is not of the iron; its ripple may be. */
+static hci_status means_leave(hci_search *s, hci_fitted_model *model, hci_note *note)
+{
+    hci_candidates *list = &model->candidates;
+    hci_status status = HCI_OK;
+    for (size_t k = unnatural_mean(s, list); k < list->count && !status; k = unnatural_mean(s, list)) {
+        status = disbelieve(s, model, list->candidate[k].type, 1.0, note);
+        list->candidate[k].in = false;
+        if (!status) status = hci_search_renew(s, model, note);
+    }
     return status;
 }
 
@@ -238,9 +256,11 @@ static hci_status unnatural_leave(hci_search *s, hci_fitted_model *model, const 
 hci_status hci_search_keep_brakes(hci_search *s, hci_fitted_model *model, hci_note *note)
 {
     const hci_effect_type *type = NULL;
-    hci_status status = unnatural_find(s, &model->candidates, &type, note);
+    hci_status status = means_leave(s, model, note);
+    if (!status) status = unnatural_find(s, &model->candidates, &type, note);
     while (!status && type) {
         status = unnatural_leave(s, model, type, note);
+        if (!status) status = means_leave(s, model, note);
         if (!status) status = unnatural_find(s, &model->candidates, &type, note);
     }
     return status;
@@ -315,6 +335,18 @@ static void parts_of_series_leave(hci_candidates *model)
         if (hci_candidate_type(r)->in_series) hci_candidates_remove_type(model, hci_candidate_type(r));
 }
 
+/* The same of the model that is believed, or of the one with single terms where a whole co-energy, which was
+ * chosen by runs left out and not by this score, stands in its place and is further from that of them. */
+static hci_status believed_merit(hci_search *s, hci_fitted_model *model, merit *to, hci_note *note)
+{
+    merit single;
+    hci_status status = merit_of(s, model, to, note);
+    if (status || !s->whole_coenergy || hci_candidates_types_in(&s->single.candidates) == 0) return status;
+    status = merit_of(s, &s->single, &single, note);
+    if (!status && single.gain > to->gain) *to = single;
+    return status;
+}
+
 hci_status hci_search_yield(hci_search *s, hci_fitted_model *model, hci_yield *yield, hci_note *note)
 {
     hci_disbelieved *x = &s->disbelieved;
@@ -324,7 +356,7 @@ hci_status hci_search_yield(hci_search *s, hci_fitted_model *model, hci_yield *y
     if (!x->type) return HCI_OK;
     if (hci_candidates_have_series(&model->candidates)) parts_of_series_leave(&x->model.candidates);
     hci_status status = merit_of(s, &x->model, &other, note);
-    if (!status) status = merit_of(s, model, &believed, note);
+    if (!status) status = believed_merit(s, model, &believed, note);
     if (status) return status;
     if (other.gain > HCI_DECISIVE && other.gain > NEARLY * believed.gain) *yield = HCI_YIELD_RIVAL;
     if (!is_better(&other, &believed)) return HCI_OK;

@@ -46,8 +46,7 @@ static hci_status candidates_renew(hci_search *s, const hci_candidates *model, h
                                           .no_current = s->no_current,
                                           .denied = s->denied,
                                           .one_gain = s->one_gain,
-                                          .has_neutral = s->options->has_neutral,
-                                          .symmetric = s->symmetric};
+                                          .has_neutral = s->options->has_neutral};
     const hci_status status = hci_search_residual(s, model, note);
     if (status) return status;
     variance_set(s);

@@ -292,32 +292,3 @@ hci_status hci_search_without_denied(hci_search *s, hci_fitted_model *model, hci
     hci_fitted_model_release(&others);
     return status ? status : hci_search_renew(s, model, note);
 }
-
-/* ---- without means that keep their sign ---- */
-
-/* Down to the noise: what is beside something unknown takes any values. */
-static hci_status try_symmetric(hci_search *s, hci_fitted_model *model, hci_fitted_model *other,
-                                hci_note *note)
-{
-    s->symmetric = true;
-    hci_status status = hci_search_rounds(s, other, note);
-    bool is_all = false;
-    if (!status) status = hci_search_is_noise(s, &other->candidates, &is_all, note);
-    s->symmetric = !status && is_all;
-    if (s->symmetric) hci_fitted_model_replace(model, other);
-    return status;
-}
-
-hci_status hci_search_symmetric(hci_search *s, hci_fitted_model *model, hci_note *note)
-{
-    const hci_regression *e = s->regression;
-    hci_fitted_model other = {0};
-    if (hci_search_is_over(s) || !hci_candidates_are_one_sided(e->samples, e->use)) return HCI_OK;
-    hci_status status = hci_fitted_model_copy(model, &other, note);
-    if (!status && hci_mirror_is_mended(e, &other.candidates)) {
-        status = try_symmetric(s, model, &other, note);
-        if (!status) status = hci_search_renew(s, model, note);
-    }
-    hci_fitted_model_release(&other);
-    return status;
-}

@@ -20,9 +20,4 @@ hci_status hci_search_rounds(hci_search *search, hci_fitted_model *model, hci_no
  * leaves, and what it stood for has never been looked for. HCI_ERROR_MEMORY. */
 hci_status hci_search_without_denied(hci_search *search, hci_fitted_model *model, hci_note *note);
 
-/* Where what was found has a mean torque that keeps its sign with the load, which no iron makes and these
- * loads do not tell: looks for another one without such means, and takes it where it describes the recordings
- * about as well. HCI_ERROR_MEMORY. */
-hci_status hci_search_symmetric(hci_search *search, hci_fitted_model *model, hci_note *note);
-
 #endif

@@ -38,7 +38,6 @@ typedef struct {
     bool known_only;                  /* nothing unknown competes */
     bool magnetic_only;               /* nor what direct currents do not tell from the magnetic circuit */
     bool no_current;                  /* nor what needs a current */
-    bool symmetric;          /* nor means of the iron that keep their sign, where no load tells them */
     bool one_gain;           /* a gain of the torque sensor competes, whatever the residual shows */
     const bool *denied;      /* nor these, of each type; NULL: none */
     bool from_no_load;       /* the search went on from what the runs without a current show */

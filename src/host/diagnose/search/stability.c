@@ -5,7 +5,9 @@
 
 #include "host/base/memory.h"
 #include "host/diagnose/candidates/empirical_term.h"
+#include "host/diagnose/fit/load_range.h"
 #include "host/diagnose/fit/run_equations.h"
+#include "host/diagnose/search/coenergy.h"
 
 #define FLOOR 0.05 /* mean square of a run, in units of its noise, below which it is as good as can be */
 
@@ -21,6 +23,7 @@ typedef struct {
     hci_search *search;
     const hci_candidates *model;
     hci_run_equations equations;
+    size_t asked;           /* groups that are left out; the others only where too few are left */
     double *precision;      /* [columns], with a type held at 0 */
     double *with, *without; /* [runs], squares of the runs left out */
 } leaving;
@@ -29,6 +32,15 @@ static void leaving_end(leaving *l)
 {
     hci_run_equations_release(&l->equations);
     hci_memory_free(l->precision);
+}
+
+/* A power series in the currents, as that of iron that saturates, says nothing of loads beyond those that it
+ * was fitted to: runs of such loads are not asked. */
+static void asked_find(leaving *l)
+{
+    const size_t groups = l->equations.groups.count;
+    if (!hci_search_saturates(l->model)) memset(l->equations.beyond, 0, groups * sizeof *l->equations.beyond);
+    l->asked = hci_asked_count(l->equations.beyond, groups);
 }
 
 /* few: up to so many runs are cut into parts. */
@@ -47,6 +59,7 @@ static hci_status leaving_start(hci_search *s, const hci_candidates *model, size
     }
     l->with = l->precision + columns;
     l->without = l->with + groups;
+    asked_find(l);
     return HCI_OK;
 }
 
@@ -126,7 +139,7 @@ static double worth_in(const leaving *l, const bool *untold)
     double sum = 0.0, mean_log = 0.0;
     for (size_t r = 0; r < l->equations.groups.count; ++r) {
         const double rows = fmax(1.0, l->equations.groups.group[r].rows);
-        if (untold && untold[r]) continue;
+        if (l->equations.beyond[r] || (untold && untold[r])) continue;
         sum += l->without[r] - l->with[r];
         mean_log += rows * log((l->without[r] / rows + FLOOR) / (l->with[r] / rows + FLOOR));
     }
@@ -184,7 +197,8 @@ static hci_status untold_find(const leaving *l, const hci_effect_type *type, boo
                       hci_left_out_falls(&known, l->precision, left_out + 2 * groups);
     *told = 0;
     for (size_t r = 0; r < groups && made; ++r) {
-        untold[r] = tells_alone(left_out[2 * groups + r], left_out[r], left_out[groups + r]);
+        untold[r] = l->equations.beyond[r] ||
+                    tells_alone(left_out[2 * groups + r], left_out[r], left_out[groups + r]);
         *told += !untold[r];
     }
     hci_memory_free(run);
@@ -241,7 +255,7 @@ static hci_status worth_of(leaving *l, const hci_effect_type *type, double *wort
                            hci_note *note)
 {
     hold(l, type);
-    *told = l->equations.groups.count;
+    *told = l->asked;
     if (!hci_left_out_squares(&l->equations.groups, l->equations.precision, l->with) ||
         !hci_left_out_squares(&l->equations.groups, l->precision, l->without))
         return hci_note_memory(note, NULL, "leaving runs out");
@@ -260,7 +274,7 @@ hci_status hci_search_left_out(hci_search *s, const hci_candidates *model, doubl
         status = hci_note_memory(note, NULL, "leaving runs out");
     for (size_t r = 0; r < groups->count && groups->count >= HCI_LEAST_GROUPS && !status; ++r) {
         const double rows = fmax(1.0, groups->group[r].rows);
-        *misfit += rows * log(l.with[r] / rows + FLOOR);
+        if (!l.equations.beyond[r]) *misfit += rows * log(l.with[r] / rows + FLOOR);
     }
     leaving_end(&l);
     return status;
@@ -282,7 +296,7 @@ static double missed_of(double fall, double left_out, double all_in)
 
 static void promises_add(const leaving *l, size_t run, double fall, promises *p)
 {
-    if (!is_told(fall, l->with[run])) return;
+    if (l->equations.beyond[run] || !is_told(fall, l->with[run])) return;
     p->taken += l->equations.groups.group[run].square - l->without[run];
     p->missed += missed_of(fall, l->with[run], l->without[run]);
     ++p->told;
@@ -315,7 +329,7 @@ hci_status hci_search_unpredicted(hci_search *s, const hci_candidates *model, do
     hci_status status = leaving_start(s, model, HCI_LEAST_GROUPS, &l, note);
     if (status) return status;
     status = promises_sum(&l, false, &p, note);
-    if (!status && 3 * p.told < 2 * l.equations.groups.count) status = promises_sum(&l, true, &p, note);
+    if (!status && 3 * p.told < 2 * l.asked) status = promises_sum(&l, true, &p, note);
     leaving_end(&l);
     p.missed -= BY_CHANCE * (double)hci_candidates_terms_in(model);
     if (!status && p.taken > 0.0) *share = fmax(0.0, p.missed / p.taken);

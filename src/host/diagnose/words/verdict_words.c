@@ -484,25 +484,27 @@ static void say_open_voltage(const hci_words *w, const hci_diagnosis *d)
 
 static void say_search(const hci_words *w, const hci_diagnosis *d)
 {
+    const bool limited = d->search == HCI_WORK_LIMITED;
+    const char *end = limited ? "The search reached the limit of its work" : "The search was interrupted";
     if (d->search == HCI_WORK_COMPLETE) return;
     if (d->verdict <= HCI_DIAGNOSIS_EXPLAINED && d->rms_after_Nm < NOTHING_LEFT * d->noise_Nm) {
         hci_words_say(
             w,
             "%s: nothing but noise is left, yet others that may describe the recordings as well have not "
-            "been compared with it, so that this is not called sure (exit code 1)%s. ",
-            d->search == HCI_WORK_INTERRUPTED ? "The search was interrupted"
-                                              : "The search reached the limit of its work",
-            d->search == HCI_WORK_INTERRUPTED ? "" : "; --work 4 lets it take up to four times as long");
-        return;
+            "been compared with it, so that this is not called sure (exit code 1)",
+            end);
+        if (limited) hci_words_say(w, "; --work %g lets it take up to four times as long", d->further_work);
+    } else {
+        hci_words_say(
+            w, "%s: this is the best model that it had found; others have not been compared with it", end);
+        if (limited)
+            hci_words_say(
+                w,
+                " (it gets further with --work %g, which takes up to four times as long, with fewer "
+                "runs, or where effects.csv declares what is known)",
+                d->further_work);
     }
-    hci_words_say(w,
-                  "%s: this is the best model that it had found; others have not been compared with it%s. ",
-                  d->search == HCI_WORK_INTERRUPTED ? "The search was interrupted"
-                                                    : "The search reached the limit of its work",
-                  d->search == HCI_WORK_INTERRUPTED ? ""
-                                                    : " (it gets further with --work 4, which takes up to "
-                                                      "four times as long, with fewer runs, or where "
-                                                      "effects.csv declares what is known)");
+    hci_words_say(w, ". ");
 }
 
 static void say_nothing_measured(const hci_words *w)

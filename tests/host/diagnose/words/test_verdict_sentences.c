@@ -221,6 +221,7 @@ static void test_nothing_explains_it(void)
     unknown();
     TEST_ASSERT_EQUAL_STRING(NO_EFFECT, words());
     d.search = HCI_WORK_LIMITED;
+    d.further_work = 16.0;
     TEST_ASSERT_TRUE(says("What the model lacks is not known yet."));
 }
 
@@ -426,6 +427,7 @@ static void test_what_is_plain_and_not_taken(void)
     TEST_ASSERT_TRUE(
         says("saturation (700); none of them explains enough of it, or holds in runs left out."));
     d.search = HCI_WORK_LIMITED;
+    d.further_work = 16.0;
     TEST_ASSERT_TRUE(says("saturation (700); none of them was confirmed as far as was looked."));
     d.verdict = HCI_DIAGNOSIS_COMPLETE;
     TEST_ASSERT_TRUE(says("saturation (700); what each would"));
@@ -542,12 +544,13 @@ static void test_a_search_that_ended_early(void)
         TEST_ASSERT_FALSE(says("it gets further"));
     }
     d.search = HCI_WORK_LIMITED;
+    d.further_work = 16.0;
     d.verdict = HCI_DIAGNOSIS_AMBIGUOUS;
     TEST_ASSERT_TRUE(begins("The search reached the limit of its work: this is"));
-    TEST_ASSERT_TRUE(says("compared with it (it gets further with --work 4, which"));
+    TEST_ASSERT_TRUE(says("compared with it (it gets further with --work 16, which"));
     d.verdict = HCI_DIAGNOSIS_COMPLETE;
     TEST_ASSERT_TRUE(begins("The search reached the limit of its work: nothing"));
-    TEST_ASSERT_TRUE(says("(exit code 1); --work 4 lets it"));
+    TEST_ASSERT_TRUE(says("(exit code 1); --work 16 lets it"));
 }
 
 /* ---- nothing can be said ---- */

@@ -43,10 +43,11 @@ static void test_means_beside_a_ripple(void)
 static void test_an_unfinished_search_gives_no_causes(void)
 {
     d.search = HCI_WORK_LIMITED;
+    d.further_work = 16.0;
     d.wanders = d.contradicted = true;
     d.disbelieved = "back_emf";
     TEST_ASSERT_TRUE(says("is not known yet"));
-    TEST_ASSERT_TRUE(says("it gets further with --work 4"));
+    TEST_ASSERT_TRUE(says("it gets further with --work 16"));
     TEST_ASSERT_FALSE(says("No known effect"));
     TEST_ASSERT_FALSE(says("The mean of each run"));
     TEST_ASSERT_FALSE(says("does not repeat"));
@@ -194,6 +195,7 @@ static void test_a_limit_with_nothing_left(void)
 {
     d.verdict = HCI_DIAGNOSIS_EXPLAINED;
     d.search = HCI_WORK_LIMITED;
+    d.further_work = 16.0;
     d.noise_Nm = 0.01;
     d.rms_after_Nm = 0.0105;
     TEST_ASSERT_TRUE(says("limit of its work: nothing but noise is left"));
