@@ -189,7 +189,9 @@ static double largest_current_A(const hci_binned_samples *samples, const bool *u
     return most_A;
 }
 
-bool hci_candidates_are_one_sided(const hci_binned_samples *samples, const bool *use)
+/* Whether all loads have an i_q of one sign: what of the mean torque keeps its sign with the load is not told
+ * from what turns it. */
+static bool are_one_sided(const hci_binned_samples *samples, const bool *use)
 {
     const double most_A = largest_current_A(samples, use);
     bool drives = false, brakes = false;
@@ -239,7 +241,7 @@ static hci_effect_survey survey_of(const hci_candidates_source *s)
             x.standing_current_A = fmax(x.standing_current_A, fabs(f->standing_A[phase]));
     }
     x.has_temperature = warms(s);
-    x.one_sided = hci_candidates_are_one_sided(s->samples, s->use);
+    x.one_sided = are_one_sided(s->samples, s->use);
     x.loaded_both_ways = are_loaded_both_ways(s->samples, s->use);
     x.reference_current_A = s->reference_current_A > 0.0 ? s->reference_current_A : x.current_A;
     return x;

@@ -14,8 +14,4 @@
 hci_status hci_candidates_make(const hci_candidates_source *source, const hci_candidates *known,
                                hci_candidates *candidates, hci_note *note);
 
-/* Whether all loads of the runs in use have an i_q of one sign: what of the mean torque keeps its sign with the
- * load is not told from what turns it. O(runs). */
-bool hci_candidates_are_one_sided(const hci_binned_samples *samples, const bool *use);
-
 #endif

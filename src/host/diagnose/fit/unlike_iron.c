@@ -79,17 +79,6 @@ bool hci_mirror_is_broken(const hci_regression *e, const hci_candidates *candida
     return all.keeps_Nm > (any_is_direct(e) ? 1.0 : MOST) * all.turns_Nm;
 }
 
-bool hci_mirror_is_mended(const hci_regression *e, hci_candidates *candidates)
-{
-    bool any = false;
-    for (size_t k = 0; k < candidates->count; ++k) {
-        if (!hci_mirror_is_broken(e, candidates, k)) continue;
-        candidates->candidate[k].in = false;
-        any = true;
-    }
-    return any;
-}
-
 /* ---- more torque per ampere ---- */
 
 /* The run in use with the largest mean current along q; the number of runs: none has one. */

@@ -13,9 +13,6 @@
  * inductances, which may make the other part. O(candidates·runs). */
 bool hci_mirror_is_broken(const hci_regression *regression, const hci_candidates *candidates, size_t k);
 
-/* Takes those out. Returns whether there were any. */
-bool hci_mirror_is_mended(const hci_regression *regression, hci_candidates *candidates);
-
 /* Whether candidate k is in, of a higher power of the currents in the mean of the co-energy, and all such
  * together make more torque per ampere at the largest recorded current along q than at small ones, by more
  * than 3 %. Iron that saturates makes less; current sensors that read large currents too small look like it.

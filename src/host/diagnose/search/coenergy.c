@@ -8,7 +8,6 @@
 #include "host/diagnose/candidates/coenergy_terms.h"
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/fit/linearise.h"
-#include "host/diagnose/fit/load_range.h"
 #include "host/diagnose/fit/shown_orders.h"
 #include "host/numeric/left_out.h"
 
@@ -77,8 +76,6 @@ typedef struct {
     hci_groups runs;
     hci_normal_equations *run;
     double *precision, *square; /* of each column, of each run */
-    bool *beyond;               /* of each run: a load that the others do not reach */
-    double asked;               /* runs that are left out, the others */
 } comparison;
 
 /* ---- recordings, one by one ---- */
@@ -110,16 +107,6 @@ static hci_status run_linearise(void *context, size_t run, hci_note *note)
         hci_regression_normal(c->search->regression, &c->all, false, &c->run[c->runs.count], note);
     c->runs.count += !status;
     return status;
-}
-
-/* A power series says nothing of loads beyond those that it was fitted to. Returns how many are asked. */
-static double beyond_find(comparison *c)
-{
-    const hci_regression *e = c->search->regression;
-    size_t runs = 0;
-    for (size_t r = 0; r < e->samples->run_count; ++r)
-        if (e->use[r]) c->beyond[runs++] = hci_run_is_beyond(e, r);
-    return (double)hci_asked_count(c->beyond, runs);
 }
 
 /* ---- choices ---- */
@@ -159,7 +146,7 @@ static hci_status misfit_of(const comparison *c, const choice *how, double *misf
         return hci_note_memory(note, NULL, "leaving runs out");
     *misfit = 0.0;
     for (size_t r = 0; r < c->runs.count; ++r)
-        if (!c->beyond[r]) *misfit += log(c->square[r] / fmax(1.0, c->runs.group[r].rows) + FLOOR) / c->asked;
+        *misfit += log(c->square[r] / fmax(1.0, c->runs.group[r].rows) + FLOOR) / (double)c->runs.count;
     return HCI_OK;
 }
 
@@ -192,7 +179,7 @@ static double sum_of(const comparison *c)
 {
     double sum = 0.0;
     for (size_t r = 0; r < c->runs.count; ++r)
-        sum += c->beyond[r] ? 0.0 : c->square[r];
+        sum += c->square[r];
     return sum;
 }
 
@@ -346,11 +333,9 @@ static hci_status comparison_make(comparison *c, hci_note *note)
     c->run = hci_memory_new(e->samples->run_count, sizeof *c->run);
     c->precision =
         hci_memory_new(hci_candidates_terms_in(&c->all) + e->samples->run_count, sizeof *c->precision);
-    c->beyond = hci_memory_new(e->samples->run_count + 1, sizeof *c->beyond);
-    if (!c->run || !c->precision || !c->beyond) return hci_note_memory(note, NULL, "leaving runs out");
+    if (!c->run || !c->precision) return hci_note_memory(note, NULL, "leaving runs out");
     c->square = c->precision + hci_candidates_terms_in(&c->all);
     c->runs.group = c->run;
-    c->asked = beyond_find(c);
     return hci_regression_each_run(e, run_linearise, c, note);
 }
 
@@ -360,7 +345,6 @@ static void comparison_release(comparison *c)
         hci_normal_equations_release(&c->run[r]);
     hci_memory_free(c->run);
     hci_memory_free(c->precision);
-    hci_memory_free(c->beyond);
     hci_candidates_release(&c->all);
 }
 

@@ -24,7 +24,7 @@ static double residual_Nm[RUNS * SAMPLES], variance[RUNS * SAMPLES];
 static hci_binned_samples samples;
 static hci_candidates list;
 static int richness;
-static bool known_only, magnetic_only, has_neutral, symmetric;
+static bool known_only, magnetic_only, has_neutral;
 
 /* One turn each at three speeds and currents, with noise for a residual. */
 void setUp(void)
@@ -32,7 +32,7 @@ void setUp(void)
     seed = 77;
     declared = NO_EFFECTS;
     richness = 0;
-    known_only = magnetic_only = has_neutral = symmetric = false;
+    known_only = magnetic_only = has_neutral = false;
     back_emf[0] = (hci_wave){1.0, 1, 0.2, 0.0};
     back_emf[1] = (hci_wave){2.0, -1, 0.001, 0.0};
     machine = (hci_machine){.pole_pairs = P, .back_emf = back_emf, .back_emf_count = 1};
@@ -78,8 +78,7 @@ static hci_status make_from(const hci_candidates *known)
                                           .richness = richness,
                                           .known_only = known_only,
                                           .magnetic_only = magnetic_only,
-                                          .has_neutral = has_neutral,
-                                          .symmetric = symmetric};
+                                          .has_neutral = has_neutral};
     hci_note note = {{0}};
     hci_candidates_release(&list);
     return hci_candidates_make(&source, known, &list, &note);
@@ -330,18 +329,12 @@ static void test_a_mean_that_keeps_its_sign(void)
         for (size_t j = 0; j < SAMPLES; ++j)
             rec_phases(id_A, k % 3 == 1 || (k % 3 == 2 && j < SAMPLES / 2) ? -1.0 : 1.0,
                        P * run[1].theta_m_rad[j], run[1].i_A + 3 * j);
-        symmetric = true;
         make();
-        TEST_ASSERT_EQUAL(k % 3 == 0, hci_candidates_are_one_sided(&samples, use));
         TEST_ASSERT_EQUAL(k % 3 > 0 && id_A < 0.0, mean_terms_of("saturation", "d0q3_cosine"));
         TEST_ASSERT_EQUAL(k % 3 > 0 && id_A < 0.0, mean_terms_of("saturation", "d2q1_cosine"));
         TEST_ASSERT_EQUAL(k % 3 > 0, mean_terms_of("reluctance", "dq_cosine"));
         TEST_ASSERT_EQUAL(1, mean_terms_of("saturation", "d1q2_cosine"));
         TEST_ASSERT_EQUAL(1, mean_terms_of("reluctance", "dd_cosine"));
-        symmetric = false;
-        make();
-        TEST_ASSERT_EQUAL(id_A < 0.0, mean_terms_of("saturation", "d0q3_cosine"));
-        TEST_ASSERT_EQUAL(1, mean_terms_of("reluctance", "dq_cosine"));
     }
 }
 
