@@ -105,6 +105,16 @@ static void propose_order(const hci_effect_survey *survey, const hci_effect_prop
     }
 }
 
+static size_t monomial_at(int a, int b)
+{
+    size_t k = 0;
+    while (MONOMIAL[k].a != a || MONOMIAL[k].b != b)
+        ++k;
+    return k;
+}
+
+/* Where the loads have one sign, the next power of the mean that turns with them is there in place of those
+ * that do not. */
 static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
 {
     const int degrees = survey->richness > 1 ? 6 : 4, orders = survey->richness > 0 ? 60 : 12;
@@ -112,6 +122,7 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
     for (size_t k = 0; MONOMIAL[k].a + MONOMIAL[k].b <= degrees; ++k)
         for (int order = 0; order <= orders; order += 6)
             propose_order(survey, to, k, order);
+    if (survey->one_sided && degrees < 5) propose_order(survey, to, monomial_at(1, 4), 0);
 }
 
 static void propose_coenergy(const hci_effect_coenergy_series *series, const hci_effect_proposals *to)

@@ -28,11 +28,12 @@ static double along_A(const hci_run_statistics *x, double direction_rad)
     return x->mean_id_A * cos(direction_rad) + x->mean_iq_A * sin(direction_rad);
 }
 
-/* By how much one run lies further along a direction than all others in use. */
+/* By how much one run lies further along a direction than all others in use, and no current, at which every
+ * power of the currents is known. */
 static double further_A(const hci_regression *e, size_t run, double direction_rad)
 {
     const hci_run_statistics *x = e->samples->statistics;
-    double furthest_A = -INFINITY;
+    double furthest_A = 0.0;
     for (size_t r = 0; r < e->samples->run_count; ++r)
         if (e->use[r] && r != run) furthest_A = fmax(furthest_A, along_A(&x[r], direction_rad));
     return along_A(&x[run], direction_rad) - furthest_A;

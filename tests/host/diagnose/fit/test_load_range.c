@@ -46,7 +46,7 @@ static void test_the_largest_load_along_one_direction(void)
     add(0.0, 10.0);
     add(0.0, 20.0);
     TEST_ASSERT_TRUE(beyond(2));
-    TEST_ASSERT_FALSE(beyond(0)); /* along no direction further than all others … */
+    TEST_ASSERT_FALSE(beyond(0));
     TEST_ASSERT_FALSE(beyond(1));
     add(0.0, 18.1);
     TEST_ASSERT_FALSE(beyond(2));
@@ -54,18 +54,19 @@ static void test_the_largest_load_along_one_direction(void)
     TEST_ASSERT_TRUE(beyond(2));
 }
 
-/* … but it is where all others have a load, and so is the only one of another direction. */
+/* Between the smallest load and none there is nothing beyond; the only one of another direction is. */
 static void test_the_smallest_and_the_opposite(void)
 {
     add(0.0, 4.0);
     add(0.0, 10.0);
     add(0.0, 20.0);
-    TEST_ASSERT_TRUE(beyond(0));
-    add(0.0, -4.0);
     TEST_ASSERT_FALSE(beyond(0));
+    add(0.0, -4.0);
     TEST_ASSERT_TRUE(beyond(3));
-    use[3] = false;
-    TEST_ASSERT_TRUE(beyond(0));
+    add(0.0, -4.0);
+    TEST_ASSERT_FALSE(beyond(3));
+    use[4] = false;
+    TEST_ASSERT_TRUE(beyond(3));
 }
 
 /* In the plane: inside of a square of loads nothing is beyond, each of its corners is. */

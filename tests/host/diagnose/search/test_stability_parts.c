@@ -16,6 +16,8 @@ static double gram[RUNS][COLUMNS * COLUMNS], moment[RUNS][COLUMNS], precision[CO
 static hci_normal_equations run[RUNS];
 static double with[RUNS], without[RUNS];
 
+static bool beyond[RUNS]; /* none is */
+
 static const hci_effect_type *type(const char *name)
 {
     return hci_effect_type_find(name);
@@ -50,7 +52,7 @@ void setUp(void)
     }
     precision[0] = 0.5, precision[1] = 0.25, precision[2] = 0.125;
     l = (leaving){.search = &search, .model = &model, .precision = held, .with = with, .without = without};
-    l.equations = (hci_run_equations){.groups = {run, RUNS}, .run = run, .precision = precision};
+    l.equations = (hci_run_equations){.groups = {run, RUNS}, .run = run, .beyond = beyond, .precision = precision};
 }
 
 void tearDown(void)
