@@ -46,7 +46,8 @@ enum { MOST_ORDER = 60, MOST_LOW_ORDER = 24 };
  * load, and is told by loads of both signs alone; a rotor that looks alike both ways round has cos for dd and
  * qq and sin for dq. */
 /* Where hardly any current flowed along d, noise and errors of the angle are all that there is of it, and
- * take any saliency that suits. Of a rotor with magnets I_0 makes a few times their flux at most. */
+ * take any saliency that suits: no other one than is declared is looked for then, and of one that is not no
+ * more than a rotor with magnets has, where I_0 makes a few times their flux at most. */
 #define HARDLY        0.05 /* of the current */
 #define EXPECTED_FLUX 3.0
 
@@ -68,11 +69,13 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
 {
     static const size_t EVEN[] = {DD + 1, QQ + 1, DQ}, ODD[] = {DD, QQ, DQ + 1};
     const int most = survey->richness > 0 ? MOST_ORDER : MOST_LOW_ORDER;
-    hci_effect_propose(to, DD + 1, 1, 0.0, 1.0, expected_H(survey));
+    const bool no_direct = survey->flows_d_A < HARDLY * survey->current_A;
+    if (!no_direct || survey->machine->slope_count == 0)
+        hci_effect_propose(to, DD + 1, 1, 0.0, 1.0, expected_H(survey));
     if (!survey->one_sided) hci_effect_propose(to, DQ + 1, 1, 0.0, 4.0, expected_H(survey));
     for (int n = 2; n <= most; n += n == 2 ? 4 : 6)
         for (int k = 0; k < 3; ++k) {
-            if (k != 1 && survey->flows_d_A < HARDLY * survey->current_A) continue;
+            if (k != 1 && no_direct) continue;
             hci_effect_propose(to, EVEN[k], 1, n, n == 2 ? UNSYMMETRIC : USUAL, 0.0);
             hci_effect_propose(to, ODD[k], 1, n, UNSYMMETRIC, 0.0);
         }

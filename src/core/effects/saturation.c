@@ -114,7 +114,7 @@ static size_t monomial_at(int a, int b)
 }
 
 /* Where the loads have one sign, the next power of the mean that turns with them is there in place of those
- * that do not. */
+ * that do not, once there is saturation. */
 static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
 {
     const int degrees = survey->richness > 1 ? 6 : 4, orders = survey->richness > 0 ? 60 : 12;
@@ -122,7 +122,7 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
     for (size_t k = 0; MONOMIAL[k].a + MONOMIAL[k].b <= degrees; ++k)
         for (int order = 0; order <= orders; order += 6)
             propose_order(survey, to, k, order);
-    if (survey->one_sided && degrees < 5) propose_order(survey, to, monomial_at(1, 4), 0);
+    if (survey->one_sided && survey->richness == 1) propose_order(survey, to, monomial_at(1, 4), 0);
 }
 
 static void propose_coenergy(const hci_effect_coenergy_series *series, const hci_effect_proposals *to)

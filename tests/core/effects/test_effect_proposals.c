@@ -327,6 +327,16 @@ static void test_inductances_without_an_i_d(void)
     takes("reluctance", 3, (named){"qq_sine", 1, 2.0, 60.0, 0.0});
     takes("reluctance", 4, (named){"qq_cosine", 1, 6.0, 12.0, 0.0});
     TEST_ASSERT_EQUAL_UINT64(2 + 2 * 5, count);
+    hci_machine salient = *s.machine;
+    const hci_inductance_slope declared = {0};
+    salient.slope = &declared;
+    salient.slope_count = 1;
+    s.machine = &salient;
+    count = 0;
+    hci_effect_type_find("reluctance")->propose(&s, &TO); /* no saliency beside the declared one */
+    TEST_ASSERT_EQUAL_STRING("dq_cosine",
+                             hci_effect_type_find("reluctance")->parameter[taken[0].parameter].name);
+    TEST_ASSERT_EQUAL_UINT64(1 + 2 * 5, count);
 }
 
 /* Powers d^a q^b and their waves in the order of the list: degree by degree, b rising. */
@@ -369,6 +379,24 @@ static void test_powers_of_saturation(void)
     }
     s.reference_current_A = 0.0;
     proposes("saturation", &s, 0, NULL);
+}
+
+/* Of loads of one sign the mean has i_d i_q² alone, beside saturation that is known i_d i_q⁴. */
+static void test_a_mean_of_one_sign(void)
+{
+    static const char *const MEANS[] = {"d1q2_cosine", "d1q4_cosine"};
+    const hci_effect_type *type = hci_effect_type_find("saturation");
+    hci_effect_survey s = recordings();
+    s.one_sided = true;
+    for (s.richness = 0; s.richness < 3; ++s.richness) {
+        size_t means = 0;
+        count = 0;
+        type->propose(&s, &TO);
+        for (size_t k = 0; k < count; ++k)
+            if (taken[k].order == 0.0)
+                TEST_ASSERT_EQUAL_STRING(MEANS[means++], type->parameter[taken[k].parameter].name);
+        TEST_ASSERT_EQUAL_UINT64(s.richness == 0 ? 1 : 2, means);
+    }
 }
 
 /* Of the means, d0q3 and the like make a torque of i_d alone: where it only ripples they are not looked for,
@@ -695,6 +723,7 @@ int main(void)
     RUN_TEST(test_powers_of_saturation);
     RUN_TEST(test_means_without_an_i_d);
     RUN_TEST(test_inductances_without_an_i_d);
+    RUN_TEST(test_a_mean_of_one_sign);
     RUN_TEST(test_series_of_the_coenergy);
     RUN_TEST(test_ends_of_the_series);
     RUN_TEST(test_a_fan_does_not_fade);
