@@ -14,18 +14,20 @@ typedef struct {
     double *gram, *moment;      /* of all groups */
     size_t *open, count;        /* unknowns that are not held */
     double *matrix, *scale, *x; /* [count] of one solution */
+    double *before;             /* [count], the x of another one */
 } workspace;
 
 static bool workspace_make(workspace *w, const hci_groups *groups, const double *precision)
 {
     const size_t n = groups->count > 0 ? groups->group[0].n : 0;
-    double *all = hci_memory_new(2 * n * n + 3 * n + 1, sizeof *all);
+    double *all = hci_memory_new(2 * n * n + 4 * n + 1, sizeof *all);
     *w = (workspace){.n = n, .gram = all, .open = hci_memory_new(n + 1, sizeof *w->open)};
     if (!all || !w->open) return false;
     w->matrix = w->gram + n * n;
     w->moment = w->matrix + n * n;
     w->scale = w->moment + n;
     w->x = w->scale + n;
+    w->before = w->x + n;
     for (size_t g = 0; g < groups->count; ++g) {
         for (size_t k = 0; k < n * n; ++k)
             w->gram[k] += groups->group[g].gram[k];
@@ -119,15 +121,19 @@ bool hci_all_in_squares(const hci_groups *groups, const double *precision, doubl
     return true;
 }
 
-/* Of all groups but one with the x of a solution, what is expected of it included. */
-static double sum_without(const workspace *w, const hci_groups *groups, size_t out, const double *precision)
+/* By how much the sum of the squares of all groups but one, and of what is expected, is larger with the x
+ * before than with its own, where it is least: dᵀ(Σ XᵀX + precision)d, d what these differ by. */
+static double above_least(const workspace *w, const hci_normal_equations *out, const double *precision)
 {
     double sum = 0.0;
-    for (size_t g = 0; g < groups->count; ++g)
-        if (g != out) sum += square_of(w, &groups->group[g]);
-    for (size_t k = 0; k < w->count; ++k)
-        sum += precision[w->open[k]] * w->x[k] * w->x[k];
-    return sum;
+    for (size_t k = 0; k < w->count; ++k) {
+        const double d = w->before[k] - w->x[k];
+        double row = precision[w->open[k]] * d;
+        for (size_t j = 0; j < w->count; ++j)
+            row += gram_at(w, out, k, j) * (w->before[j] - w->x[j]);
+        sum += d * row;
+    }
+    return fmax(0.0, sum);
 }
 
 bool hci_left_out_falls(const hci_groups *groups, const double *precision, double *fall)
@@ -138,11 +144,13 @@ bool hci_left_out_falls(const hci_groups *groups, const double *precision, doubl
         return false;
     }
     const bool solved = solve_without(&w, NULL, precision);
-    const double all = solved ? sum_without(&w, groups, groups->count, precision) : (double)INFINITY;
+    memcpy(w.before, w.x, w.count * sizeof *w.x);
     for (size_t g = 0; g < groups->count; ++g)
-        fall[g] = solved && solve_without(&w, &groups->group[g], precision)
-                      ? fmax(0.0, all - sum_without(&w, groups, g, precision))
-                      : (double)INFINITY;
+        fall[g] = solved ? square_of(&w, &groups->group[g]) : (double)INFINITY;
+    for (size_t g = 0; g < groups->count && solved; ++g)
+        fall[g] += solve_without(&w, &groups->group[g], precision)
+                       ? above_least(&w, &groups->group[g], precision)
+                       : (double)INFINITY;
     workspace_release(&w);
     return true;
 }

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
+#include <time.h>
 
 #include "hci/math/dense.h"
 #include "host/base/memory.h"
@@ -47,6 +48,15 @@ static void draw(size_t columns)
         y[k] = ref_uniform(&seed, -1.0, 1.0);
 }
 
+/* Of one row with the unknowns of a solution. */
+static double square_left(size_t row, const double solution[COLUMNS])
+{
+    double left = y[row];
+    for (size_t c = 0; c < COLUMNS; ++c)
+        left -= x[row * COLUMNS + c] * solution[c];
+    return left * left;
+}
+
 /* Rows of the other groups over rows √precision, solved by an orthogonal decomposition. */
 static double square_by_rows(size_t out, const double *precision)
 {
@@ -66,12 +76,8 @@ static double square_by_rows(size_t out, const double *precision)
     TEST_ASSERT_TRUE(hci_orthogonal_workspace(M, COLUMNS) <= sizeof factor / sizeof *factor);
     TEST_ASSERT_EQUAL(HCI_OK, hci_orthogonal_factor(&q, 0.0, NULL));
     hci_orthogonal_solve(&q, b, solution, work);
-    for (size_t k = out * ROWS; k < (out + 1) * ROWS; ++k) {
-        double left = y[k];
-        for (size_t c = 0; c < COLUMNS; ++c)
-            left -= x[k * COLUMNS + c] * solution[c];
-        sum += left * left;
-    }
+    for (size_t k = out * ROWS; k < (out + 1) * ROWS; ++k)
+        sum += square_left(k, solution);
     return sum;
 }
 
@@ -133,6 +139,59 @@ static void test_falls_of_the_fit(void)
         sum += square[g];
     }
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, all, sum);
+}
+
+/* The sum of the squares of the rows of a fit, and of what is expected of its unknowns, without a group; out
+ * GROUPS: of all. x is solved for by the normal equations of these rows, summed here. */
+static double least_by_rows(size_t out, const double *precision)
+{
+    double a[COLUMNS * COLUMNS] = {0.0}, solution[COLUMNS] = {0.0}, sum = 0.0;
+    for (size_t c = 0; c < COLUMNS; ++c)
+        a[c + c * COLUMNS] = precision[c];
+    for (size_t k = 0; k < ALL; ++k)
+        for (size_t c = 0; k / ROWS != out && c < COLUMNS; ++c) {
+            solution[c] += x[k * COLUMNS + c] * y[k];
+            for (size_t j = 0; j < COLUMNS; ++j)
+                a[c + j * COLUMNS] += x[k * COLUMNS + c] * x[k * COLUMNS + j];
+        }
+    TEST_ASSERT_EQUAL(0, hci_cholesky_factor(COLUMNS, a));
+    hci_cholesky_solve(COLUMNS, a, solution);
+    for (size_t k = 0; k < ALL; ++k)
+        if (k / ROWS != out) sum += square_left(k, solution);
+    for (size_t c = 0; c < COLUMNS; ++c)
+        sum += precision[c] * solution[c] * solution[c];
+    return sum;
+}
+
+static void test_falls_are_those_of_the_rows(void)
+{
+    const double precision[COLUMNS] = {0.0, 0.3, 20.0, 1e-3};
+    double fall[GROUPS];
+    draw(COLUMNS);
+    const hci_groups groups = groups_of(COLUMNS);
+    TEST_ASSERT_TRUE(hci_left_out_falls(&groups, precision, fall));
+    for (size_t g = 0; g < GROUPS; ++g)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, least_by_rows(GROUPS, precision) - least_by_rows(g, precision),
+                                  fall[g]);
+}
+
+/* A list may have 4096 recordings: the time goes with their number, not with its square, which would be 4 s
+ * where this is 20 ms. */
+static void test_many_groups(void)
+{
+    enum { MANY = 4096, WIDE = 16 };
+    static double gram[WIDE * WIDE], moment[WIDE], precision[WIDE], fall[MANY];
+    static hci_normal_equations many[MANY];
+    const clock_t start = clock();
+    for (size_t k = 0; k < WIDE; ++k) {
+        gram[k + k * WIDE] = moment[k] = 1.0;
+    }
+    for (size_t g = 0; g < MANY; ++g)
+        many[g] = (hci_normal_equations){.n = WIDE, .gram = gram, .moment = moment, .square = 18.0};
+    TEST_ASSERT_TRUE(hci_left_out_falls(&(hci_groups){many, MANY}, precision, fall));
+    for (size_t g = 0; g < MANY; ++g) /* x = 1 whichever is left out, and each misses 18 − 32 + 16 */
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 2.0, fall[g]);
+    TEST_ASSERT_TRUE((double)(clock() - start) < 1.5 * CLOCKS_PER_SEC);
 }
 
 /* An unknown that one group alone tells: what that group misses is large, what the fit loses by it is not. */
@@ -203,6 +262,8 @@ int main(void)
     RUN_TEST(test_squares_are_those_of_the_rows);
     RUN_TEST(test_all_in_is_the_fit_of_all);
     RUN_TEST(test_falls_of_the_fit);
+    RUN_TEST(test_falls_are_those_of_the_rows);
+    RUN_TEST(test_many_groups);
     RUN_TEST(test_what_others_do_not_tell);
     RUN_TEST(test_infinite_precision_takes_an_unknown_out);
     RUN_TEST(test_columns_of_noise_cost);
