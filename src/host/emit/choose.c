@@ -63,8 +63,10 @@ static bool make_f32(hci_emission *e, double error_A)
     if (points > HCI_EMIT_MAX_POINTS) points = HCI_EMIT_MAX_POINTS;
     if (points == 0 && hci_tabulate_within(&e->tabulation, error_A, most_points(e), e->rows, &e->table))
         return true;
-    if (e->only_whether) return false;
-    hci_tabulate(&e->tabulation, points > 0 ? points : HCI_EMIT_MAX_POINTS, e->rows, &e->table);
+    if (points > 0)
+        hci_tabulate(&e->tabulation, points, e->rows, &e->table);
+    else if (!e->only_whether) /* how far off the finest is */
+        hci_tabulate_roughly(&e->tabulation, HCI_EMIT_MAX_POINTS, e->rows, &e->table);
     return points > 0;
 }
 

@@ -52,8 +52,12 @@ double hci_tabulation_clean(double current);
  * other fields but probes and CRC are set too. */
 void hci_tabulate(const hci_tabulation *t, size_t points, float *rows, hci_table_f32 *table);
 
-/* The same with the fewest points whose error is at most max_error_A; rows for most_points points, at most
- * HCI_EMIT_MAX_POINTS. False when no table is good enough; *table is then undefined. */
+/* The same of rows that are not to be written: where there are samples of the waves they are off by 1e-11 of
+ * these, and quickly made. */
+void hci_tabulate_roughly(const hci_tabulation *t, size_t points, float *rows, hci_table_f32 *table);
+
+/* As hci_tabulate, with the fewest points whose error is at most max_error_A; rows for most_points points, at
+ * most HCI_EMIT_MAX_POINTS. False when no table is good enough; *table is then undefined. */
 bool hci_tabulate_within(const hci_tabulation *t, double max_error_A, size_t most_points, float *rows,
                          hci_table_f32 *table);
 
