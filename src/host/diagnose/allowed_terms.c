@@ -185,7 +185,8 @@ static void term_fill(const hci_regression *e, const hci_candidates *fitted, con
     const hci_candidate *known = hci_candidates_find_in(fitted, x);
     const double deviation = known ? known->deviation : 0.0;
     const bool by_width = is_by_width(fitted, known, x);
-    const double unit = x->coenergy_unit > 0.0 ? x->coenergy_unit * noise_rms(e) : deviation;
+    const double own = deviation > 0.0 ? deviation : x->term[j].std_error;
+    const double unit = x->coenergy_unit > 0.0 ? x->coenergy_unit * noise_rms(e) : own;
     const size_t at = t->count++;
     if (!known) x->term[j].value = declared_value(e, x->type, &x->term[j]);
     t->unit[at] = unit > 0.0 ? unit : 1.0;

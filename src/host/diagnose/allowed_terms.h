@@ -11,7 +11,8 @@
 typedef struct {
     hci_candidates candidates; /* all are in, at the values of the fitted machine; without expectations */
     size_t count;              /* terms: columns of the normal equations */
-    double *unit;              /* [count]: deviation to be expected where the width is 1 */
+    double *unit;              /* [count]: deviation to be expected where the width is 1; of one of which
+                                * nothing is expected its standard error */
     double largest_current_A;  /* of the runs in use */
     double *fixed; /* [count]: one over the variance that is expected whatever the width; NAN: by the width */
     double *centre;  /* [count]: expected value less the value of the fitted machine */

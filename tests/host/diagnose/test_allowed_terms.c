@@ -247,17 +247,21 @@ static void test_what_is_usual_along_q(void)
         TEST_ASSERT_TRUE(k == at || terms.iron[k] == 0.0);
 }
 
-/* A term of the model keeps what was expected of it, about where that was: 0 less its value. */
+/* A term of the model keeps what was expected of it, about where that was: 0 less its value. Where nothing
+ * was, its size is what the recordings tell it to: a size in N·m would be another one of a smaller motor. */
 static void test_terms_of_the_model(void)
 {
     size_t at;
-    fit("friction", "coulomb", 0.0, 0.05);
+    fit("friction", "coulomb", 0.0, 0.05)->term[0].std_error = 2e-4;
+    fit("friction", "viscous", 0.0, 0.01); /* whose error is not known */
     fit("current_gain", "a", 0.0, 0.02)->deviation = 0.1;
     make();
+    (void)find("friction", "viscous", 0.0, &at);
+    TEST_ASSERT_EQUAL_DOUBLE(1.0, terms.unit[at]);
     (void)find("friction", "coulomb", 0.0, &at);
     TEST_ASSERT_EQUAL_DOUBLE(0.0, terms.fixed[at]);
     TEST_ASSERT_EQUAL_DOUBLE(-0.05, terms.centre[at]);
-    TEST_ASSERT_EQUAL_DOUBLE(1.0, terms.unit[at]);
+    TEST_ASSERT_EQUAL_DOUBLE(2e-4, terms.unit[at]);
     TEST_ASSERT_FALSE(terms.of_mean[at] || terms.by_direct[at]);
     TEST_ASSERT_EQUAL_INT(0, terms.power[at]);
     const hci_candidate *x = find("current_gain", "a", 0.0, &at);
