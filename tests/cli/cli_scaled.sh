@@ -25,10 +25,8 @@ results . $machines
 while read -r folder amperes newton_metres which; do
     python3 "$source_dir/tests/cli/scaled.py" scale $amperes $newton_metres . $folder $machines *.csv || exit 1
     results $folder $which
-    for name in $which; do
-        shown="diagnose $name, $folder"
-        check "results do not go with the size" python3 "$source_dir/tests/cli/scaled.py" compare $amperes $newton_metres out/$name $folder/out/$name
-    done
+    shown="$folder: diagnose $which"
+    check "results do not go with the size" python3 "$source_dir/tests/cli/scaled.py" compare $amperes $newton_metres out $folder/out
 done <<END
 small 0.015625 0.000244140625 $machines
 large 64 4096 free slow

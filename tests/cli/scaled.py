@@ -1,7 +1,7 @@
 """Machines and recordings of currents and torques of another size, and whether results differ by that size alone.
 
     scaled.py scale A T FROM TO NAME...    copies CSV files and machine folders, currents times A and torques times T
-    scaled.py compare A T ONE OTHER...     the results in OTHER are those in ONE, so scaled: names of columns, keys and values that are not
+    scaled.py compare A T ONE OTHER        the results in OTHER are those in ONE, so scaled: names of columns, keys and values that are not
 
 Speeds, angles and times stay, so voltages go by T/A, inductances and resistances by T/A², inertias and powers by T.
 """
@@ -17,11 +17,18 @@ def factors(a, t):
     """Of the units that files and results have."""
     return {"A": a, "Nm": t, "V": t / a, "Nm_per_A": t / a, "V_per_rad_per_s": t / a, "H": t / a**2, "mH": t / a**2, "ohm": t / a**2,
             "kgm2": t, "W": t, "Nms_per_rad": t, "Nms2_per_rad2": t, "Nm_per_rad_per_s": t, "Nm_per_A2": t / a**2, "Nm_per_A3": t / a**3, "H_per_A": t / a**3,
-            "H_per_A2": t / a**4, "Nm2": t * t, "A2": a * a, "J": t}
+            "H_per_A2": t / a**4, "Nm2": t * t, "A2": a * a, "J": t,
+            "A_per_Nm": a / t, "mNm": t}
+
+
+KINDS = {"current": "A", "rms": "A", "voltage": "V", "copper": "A2"}  # of limits
+LEFT_OUT = {"sweep.csv"}  # words and numbers of all kinds
 
 
 def factor_of_name(name, units):
-    """By the unit that ends a name, the longest that does; 1 where none does."""
+    """By the unit that ends a name, the longest that does; 1 where none does. Currents in the frame dq_x are times the back-EMF."""
+    if "dqx" in name:
+        return units["Nm"]
     found = [unit for unit in units if name == unit or name.endswith("_" + unit)]
     return units[max(found, key=len)] if found else 1.0
 
@@ -62,20 +69,23 @@ def scale(units, source, to, names):
 
 
 def same(x, y, size):
-    """Some numbers are written with three digits."""
-    return abs(x - y) <= 6e-3 * max(abs(x), abs(y)) + 1e-7 * size
+    """Some numbers are written with three digits, and some are rounding alone."""
+    return abs(x - y) <= 6e-3 * max(abs(x), abs(y)) + 1e-7 * size + 1e-16
 
 
-def values_of(value, units, name=""):
-    """(name, number times its factor) and (name, word) of JSON; sentences hold rounded numbers and are left out."""
+def values_of(value, units, name="", own=1.0):
+    """(name, number times its factor) and (name, word) of JSON; sentences hold rounded numbers and are left out. What stands beside a
+    `unit`, or a `kind` of limit, is in it, and a `gain` is a torque for each of it."""
     if isinstance(value, dict):
+        own = units.get(value.get("unit", KINDS.get(value.get("kind"))), 1.0)
         for key, inner in value.items():
-            yield from values_of(inner, units, f"{name}.{key}")
+            yield from values_of(inner, units, f"{name}.{key}", units["Nm"] / own if key == "gain" and "kind" in value else own)
     elif isinstance(value, list):
         for inner in value:
-            yield from values_of(inner, units, name)
+            yield from values_of(inner, units, name, own)
     elif isinstance(value, (int, float)) and not isinstance(value, bool):
-        yield name, value * factor_of_name(name, units)
+        is_own = own != 1.0 and name.rsplit(".", 1)[-1] in ("value", "limit", "gain", "std_error")
+        yield name, value * (own if is_own else factor_of_name(name, units))
     elif isinstance(value, str) and not re.search(r"\d", value):
         yield name, value
 
@@ -85,6 +95,8 @@ def cells_of(path, units):
     for row in rows[1:]:
         for name, cell, new in zip(rows[0], row, scaled_row(rows[0], row, units)):
             x = number(new)
+            if name == "torque_phase_rad":  # of amplitudes that are rounding
+                continue
             if x is not None or not re.search(r"\d", cell):
                 yield name, cell if x is None else x
 
@@ -111,12 +123,17 @@ def differences(one, other):
 
 
 def compare(units, one, other):
+    """Of the folders that OTHER has."""
     plain, count, off = {unit: 1.0 for unit in units}, 0, 0
-    for path in sorted([*one.rglob("*.csv"), *one.rglob("summary.json")]):
-        there = other / path.relative_to(one)
-        for name, words in differences(read(path, units), read(there, plain)) if there.exists() else [("", "is missing")]:
+    for folder in other.iterdir():
+        missing = sorted(p.name for p in (one / folder.name).rglob("*.*") if not (other / p.relative_to(one)).exists())
+        off += len(missing)
+        print("".join(f"{folder.name}: no {name}\n" for name in missing), end="")
+    for path in sorted(p for p in [*other.rglob("*.csv"), *other.rglob("summary.json")] if p.name not in LEFT_OUT):
+        there = one / path.relative_to(other)
+        for name, words in differences(read(there, units), read(path, plain)) if there.exists() else [("", "is one more")]:
             off += 1
-            print(f"{path.relative_to(one)} {name}: {words}")
+            print(f"{path.relative_to(other)} {name}: {words}")
         count += 1
     print(f"{count} files, {off} names of values differ")
     return off > 0 or count == 0
