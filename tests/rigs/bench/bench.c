@@ -51,7 +51,8 @@ static void draw_currents(const rig_case *c, const point *p, double most_angle, 
 {
     const double level = p->level * rig_uniform(r, 0.9, p->level > 0.8 ? 1.0 : 1.1);
     const double current = level * c->machine.rated_current_A;
-    const double angle = most_angle * (p->angle * rig_uniform(r, 0.85, 1.0) + rig_uniform(r, -0.05, 0.05));
+    const double about = p->angle * rig_uniform(r, 0.85, 1.0);
+    const double angle = most_angle * (about + rig_uniform(r, -0.05, 0.05));
     /* with salient poles mostly where the reluctance helps */
     const double lean = c->machine.salient ? (angle > 0.0 ? 1.0 : 0.5) * angle + 0.15 * most_angle : angle;
     run->id_A = -current * sin(lean);

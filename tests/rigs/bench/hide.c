@@ -16,13 +16,24 @@ static double any_phase(rig_random *r)
     return rig_uniform(r, -RIG_PI, RIG_PI);
 }
 
+typedef struct {
+    double from, to;
+} range;
+
+/* Draws stand in statements of their own: in what order arguments are taken is the compiler's. */
+static rig_wave any_wave(double order, double unit, range amplitude, rig_random *r)
+{
+    const double phase_rad = any_phase(r);
+    return wave(order, unit * rig_uniform(r, amplitude.from, amplitude.to), phase_rad);
+}
+
 /* Whole orders that no machine here declares. */
 static void draw_cogging(rig_hidden *h, rig_random *r)
 {
     static const double ORDER[] = {2.0, 4.0, 8.0, 10.0, 18.0, 24.0};
     const int first = rig_pick(r, 0, 5), second = (first + rig_pick(r, 1, 5)) % 6;
     h->cogging[0] = wave(ORDER[first], 1.0, any_phase(r));
-    if (rig_chance(r, 0.5)) h->cogging[1] = wave(ORDER[second], rig_uniform(r, 0.4, 1.0), any_phase(r));
+    if (rig_chance(r, 0.5)) h->cogging[1] = any_wave(ORDER[second], 1.0, (range){0.4, 1.0}, r);
 }
 
 /* The size of the fundamental, or a harmonic that is wrong or not declared at all. */
@@ -47,8 +58,9 @@ static void draw_phases(double value[3], bool two, rig_random *r)
 {
     const int first = rig_pick(r, 0, 2);
     value[first] = rig_chance(r, 0.5) ? 1.0 : -1.0;
-    if (two)
-        value[(first + rig_pick(r, 1, 2)) % 3] = (rig_chance(r, 0.5) ? 1.0 : -1.0) * rig_uniform(r, 0.4, 0.9);
+    if (!two) return;
+    const double sign = rig_chance(r, 0.5) ? 1.0 : -1.0, size = rig_uniform(r, 0.4, 0.9);
+    value[(first + rig_pick(r, 1, 2)) % 3] = sign * size;
 }
 
 static void draw_friction(const rig_case *c, rig_hidden *h, rig_random *r)
@@ -68,23 +80,25 @@ static void draw_turn(const rig_case *c, rig_hidden *h, rig_random *r)
     if (k == 3 && p != 3) k = 1;
     h->turn[0] = wave(k, 1.0, any_phase(r));
     if (rig_chance(r, 0.5))
-        h->turn_iq[0] = wave(k, rig_uniform(r, 0.5, 2.0) / c->machine.rated_current_A, any_phase(r));
+        h->turn_iq[0] = any_wave(k, 1.0 / c->machine.rated_current_A, (range){0.5, 2.0}, r);
 }
 
 static void draw_eccentricity(rig_hidden *h, rig_random *r)
 {
     h->eccentricity[0] = wave(1.0, 1e-3, any_phase(r));
-    if (rig_chance(r, 0.4)) h->eccentricity[1] = wave(2.0, 1e-3 * rig_uniform(r, 0.3, 0.8), any_phase(r));
+    if (rig_chance(r, 0.4)) h->eccentricity[1] = any_wave(2.0, 1e-3, (range){0.3, 0.8}, r);
 }
 
 static void draw_saturation(rig_hidden *h, rig_random *r)
 {
     h->d1q2_cosine_0 = -1.0;
     if (rig_chance(r, 0.5)) return;
-    if (rig_chance(r, 0.5))
-        h->d0q3_sine_6 = rig_uniform(r, 0.03, 0.1) * (rig_chance(r, 0.5) ? 1.0 : -1.0);
-    else
+    if (rig_chance(r, 0.5)) {
+        const double size = rig_uniform(r, 0.03, 0.1);
+        h->d0q3_sine_6 = rig_chance(r, 0.5) ? size : -size;
+    } else {
         h->d3q0_cosine_0 = rig_uniform(r, -0.8, -0.3);
+    }
 }
 
 static void draw_torque_sensor(const rig_case *c, rig_hidden *h, rig_random *r)

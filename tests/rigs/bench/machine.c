@@ -105,9 +105,11 @@ rig_machine rig_machine_draw(int most_pole_pairs, rig_random *r)
     m.rated_torque_Nm = 1.5 * e1 * m.rated_current_A;
     m.rated_speed_rad_per_s = 2.0 * RIG_PI * rig_log_uniform(r, 60.0, 300.0) / m.pole_pairs;
     draw_emf(&m, e1, r);
-    for (int order = 6; order <= 12; order += 6)
-        m.cogging[m.cogging_count++] =
-            wave(order, m.rated_torque_Nm * rig_log_uniform(r, 0.005, 0.03), rig_uniform(r, -RIG_PI, RIG_PI));
+    for (int order = 6; order <= 12; order += 6) {
+        const double phase_rad = rig_uniform(r, -RIG_PI, RIG_PI); /* one draw a statement: hide.c */
+        const double share = rig_log_uniform(r, 0.005, 0.03);
+        m.cogging[m.cogging_count++] = wave(order, m.rated_torque_Nm * share, phase_rad);
+    }
     draw_inductance(&m, e1, r);
     if (rig_chance(r, 0.3)) m.emf_frequency_Hz = 50.0;
     return m;
