@@ -86,7 +86,6 @@ HCI_WIDE static void whiten(const leaving *w)
 HCI_WIDE static void products_fill(const leaving *w)
 {
     const size_t n = w->ridge->n, rank = w->group->rank;
-    memset(w->k, 0, rank * rank * sizeof *w->k);
     memcpy(w->u, w->group->moment, rank * sizeof *w->u);
     for (size_t i = 0; i < n; ++i) {
         const double *v = w->v + i * rank, *f = w->group->factor + i * rank;
