@@ -1,4 +1,4 @@
-# Machines and recordings of several stands, in the folder that is worked in: sourced by cli_kept_found.sh and cli_scaled.sh.
+# Machines and recordings of several stands, in the folder that is worked in: sourced by cli_kept_found.sh and cli_scaled_*.sh.
 # machine NAME PAIRS K_E ROW...: a sinusoidal one with more rows of machine.csv.
 machine() {
     folder=$1
