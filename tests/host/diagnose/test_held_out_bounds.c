@@ -73,6 +73,16 @@ static void test_runs_within_what_was_fitted(void)
     TEST_ASSERT_FALSE(is_within(&(hci_run_statistics){.current_A = 1.0, .pace_rad_per_s = 32.0}, &b));
 }
 
+/* The same of a small motor that creeps, at 0.02 A and 0.1 rad/s. */
+static void test_runs_of_a_small_motor(void)
+{
+    statistics[0] = (hci_run_statistics){.current_A = 0.02, .pace_rad_per_s = 0.1};
+    statistics[1] = (hci_run_statistics){.current_A = 0.01, .pace_rad_per_s = 0.05};
+    TEST_ASSERT_TRUE(is_within(&(hci_run_statistics){.current_A = 0.0209, .pace_rad_per_s = 0.104}, &b));
+    TEST_ASSERT_FALSE(is_within(&(hci_run_statistics){.current_A = 0.0211, .pace_rad_per_s = 0.1}, &b));
+    TEST_ASSERT_FALSE(is_within(&(hci_run_statistics){.current_A = 0.02, .pace_rad_per_s = 0.106}, &b));
+}
+
 /* Sums of squares over the runs held out within it; noise or resolution, whichever allows more. */
 static void test_errors_are_summed(void)
 {
@@ -357,6 +367,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_runs_within_what_was_fitted);
+    RUN_TEST(test_runs_of_a_small_motor);
     RUN_TEST(test_errors_are_summed);
     RUN_TEST(test_what_is_described);
     RUN_TEST(test_what_contradicts);

@@ -363,6 +363,22 @@ static void test_when_a_shaft_has_moved(void)
     }
 }
 
+/* By a tenth of a radian it has; the fast rows that lie there, next to rest, count. */
+static void test_a_way_of_exactly_a_tenth(void)
+{
+    for (int at_end = 0; at_end < 2; ++at_end)
+        for (int off = 0; off < 2; ++off) {
+            const hci_run one = columns_make(40);
+            const size_t fast = at_end ? 38 : 1;
+            for (size_t k = 2; k < 38; ++k)
+                angle_rad[k] = 1.0 + 0.01 * (double)k;
+            angle_rad[1] = angle_rad[38] = off ? 0.0999 : 0.1;
+            way_speed[fast] = 40.0 * HCI_SLOW_TURN_RAD_PER_S;
+            currents_set(40);
+            TEST_ASSERT_EQUAL(off, hci_is_slow(&one, P));
+        }
+}
+
 static bool goes_both_ways(double up_rad, double down_rad)
 {
     const hci_run one = columns_make(400);
@@ -496,6 +512,7 @@ int main(void)
     RUN_TEST(test_what_accelerates_is_taken_out);
     RUN_TEST(test_how_slow_a_shaft_is_while_it_moves);
     RUN_TEST(test_when_a_shaft_has_moved);
+    RUN_TEST(test_a_way_of_exactly_a_tenth);
     RUN_TEST(test_how_far_both_ways);
     RUN_TEST(test_one_way_of_many_poles);
     RUN_TEST(test_noise_of_near_samples_is_no_current);
