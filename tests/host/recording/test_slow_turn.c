@@ -320,10 +320,12 @@ static hci_run columns_make(size_t count)
                      .count = count};
 }
 
+static double size_A = 1.0; /* of all currents below */
+
 static void currents_set(size_t count)
 {
     for (size_t k = 0; k < count; ++k)
-        hci_phases_of_dq((hci_dq){.d = 0.0, .q = 0.2 + sin(0.05 * (double)k)}, P * angle_rad[k],
+        hci_phases_of_dq((hci_dq){.d = 0.0, .q = size_A * (0.2 + sin(0.05 * (double)k))}, P * angle_rad[k],
                          &phases_A[3 * k]);
 }
 
@@ -426,13 +428,37 @@ static void test_noise_of_near_samples_is_no_current(void)
         for (size_t k = 0; k < N; ++k)
             angle_rad[k] = step_rad * (double)(k % 2);
         for (size_t k = 0; k < N; ++k) {
-            const hci_dq noise = {.d = ref_normal(&seed), .q = ref_normal(&seed)};
+            const hci_dq noise = {.d = size_A * ref_normal(&seed), .q = size_A * ref_normal(&seed)};
             hci_phases_of_dq(noise, P * angle_rad[k], &phases_A[3 * k]);
         }
         TEST_ASSERT_EQUAL(!near, hci_is_slow(&one, P));
         currents_set(N);
         TEST_ASSERT_TRUE(hci_is_slow(&one, P));
     }
+}
+
+/* The same of a motor of milliamperes. */
+static void test_a_small_motor(void)
+{
+    size_A = 1e-3;
+    test_how_slow_a_shaft_is_while_it_moves();
+    test_when_a_shaft_has_moved();
+    test_noise_of_near_samples_is_no_current();
+    size_A = 1.0;
+}
+
+/* Of a current that makes no torque nothing can be a share. */
+static void test_no_share_of_no_torque(void)
+{
+    static double torque_Nm[20];
+    hci_run one = columns_make(20);
+    one.torque_Nm = torque_Nm;
+    for (size_t k = 0; k < 20; ++k) {
+        torque_Nm[k] = k % 2 ? 0.1 : -0.1;
+        hci_phases_of_dq((hci_dq){.d = 1.0, .q = 2.0}, P * angle_rad[k], &phases_A[3 * k]);
+    }
+    hci_slow_turn_correct(&one, P, 0.0);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, one.inertia_share);
 }
 
 /* i_q of each row less a constant, or less what accelerates: rms 3 of 10 N·m. */
@@ -516,6 +542,8 @@ int main(void)
     RUN_TEST(test_how_far_both_ways);
     RUN_TEST(test_one_way_of_many_poles);
     RUN_TEST(test_noise_of_near_samples_is_no_current);
+    RUN_TEST(test_a_small_motor);
+    RUN_TEST(test_no_share_of_no_torque);
     RUN_TEST(test_what_is_taken_from_the_current);
     RUN_TEST(test_how_often_rows_turn_back);
     return UNITY_END();
