@@ -66,6 +66,15 @@ static inline void model_fit(void)
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_renew(&search, &model, &note));
 }
 
+/* What has changed a model has found noise and values anew: to do so once more changes nothing. */
+static inline void model_is_renewed(void)
+{
+    const double score = model.fit.score, noise_Nm = hci_search_noise_rms(&search);
+    model_fit();
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6 * fabs(model.fit.score), model.fit.score, score);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9 * hci_search_noise_rms(&search), hci_search_noise_rms(&search), noise_Nm);
+}
+
 static inline bool model_has(const char *effect)
 {
     return hci_candidates_have(&model.candidates, hci_effect_type_find(effect));

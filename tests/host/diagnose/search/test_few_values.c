@@ -69,6 +69,7 @@ static void test_a_series_gives_way_to_few_values(void)
     model_add("friction", "coulomb", "viscous", 0.0);
     model_fit();
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_few_values(&search, &model, &changed, &note));
+    if (changed) model_is_renewed();
     TEST_ASSERT_TRUE(changed && model_has("friction"));
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_prune(&search, &model, &note));
     is_weak_and_salient();
@@ -82,6 +83,7 @@ static void test_few_values_stay(void)
     model_add("friction", "coulomb", "viscous", 0.0);
     model_fit();
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_few_values(&search, &model, &changed, &note));
+    if (changed) model_is_renewed();
     TEST_ASSERT_FALSE(changed);
 }
 
@@ -126,6 +128,7 @@ static bool is_a_zero_of_the_angle(void)
     waves_add();
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_prune(&search, &model, &note)); /* as before it in a search */
     TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_search_angle_zero(&search, &model, &changed, &note), note.text);
+    if (changed) model_is_renewed();
     return changed;
 }
 
@@ -202,6 +205,7 @@ static bool one_is_late(void)
 {
     bool changed = false;
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_late_channel(&search, &model, &changed, &note));
+    if (changed) model_is_renewed();
     return changed;
 }
 

@@ -114,6 +114,7 @@ static void test_a_better_effect_takes_the_place(void)
     model_add("torque_sensor", "offset", NULL, 0.0);
     model_fit();
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_swap(&search, &model, &swapped, &note));
+    if (swapped) model_is_renewed();
     TEST_ASSERT_TRUE(swapped && model_has("friction") && !model_has("torque_sensor"));
 }
 
@@ -124,6 +125,7 @@ static void test_the_right_effect_stays(void)
     model_add("friction", "coulomb", NULL, 0.0);
     model_fit();
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_swap(&search, &model, &swapped, &note));
+    if (swapped) model_is_renewed();
     TEST_ASSERT_TRUE(!swapped && model_has("friction"));
 }
 
@@ -139,6 +141,7 @@ static void test_no_model_is_returned_to(void)
     model_add("torque_sensor", "offset", NULL, 0.0);
     model_fit();
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_swap(&search, &model, &swapped, &note));
+    if (swapped) model_is_renewed();
     TEST_ASSERT_TRUE(!swapped && model_has("torque_sensor"));
     hci_candidates_release(&left);
 }

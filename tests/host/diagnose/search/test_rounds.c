@@ -35,6 +35,7 @@ static void record_all(bool growing)
     }
     search_start();
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_rounds(&search, &model, &note));
+    model_is_renewed();
 }
 
 static void test_known_effects_at_once(void)

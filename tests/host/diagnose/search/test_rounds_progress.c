@@ -30,6 +30,7 @@ static void test_it_rises_from_nothing_in_small_steps(void)
     search_start();
     how.progress = tell;
     TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_rounds(&search, &model, &note));
+    model_is_renewed();
     TEST_ASSERT_TRUE(count > 2);
     TEST_ASSERT_EQUAL_DOUBLE(0.0, told[0]);
     size_t first = 0;

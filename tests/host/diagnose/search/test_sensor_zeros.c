@@ -58,6 +58,7 @@ static bool is_replaced(double order)
     model_fit();
     TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_search_sensor_zeros(&search, &model, &changed, &note),
                                   note.text);
+    if (changed) model_is_renewed();
     return changed;
 }
 
@@ -146,6 +147,7 @@ static bool comes_beside(void)
     model_fit();
     TEST_ASSERT_EQUAL_INT_MESSAGE(HCI_OK, hci_search_beside_zeros(&search, &model, &changed, &note),
                                   note.text);
+    if (changed) model_is_renewed();
     return changed;
 }
 
