@@ -18,6 +18,38 @@ void tearDown(void)
 {
 }
 
+/* Without effects there is none, whatever stood there. */
+static void test_no_flux_of_no_effects(void)
+{
+    const hci_plane_current i = {{1.0, 2.0}, {3.0, 4.0}};
+    for (int which = 0; which < 2; ++which) {
+        double slope_Vs[2] = {0.5, -0.5}, inductance_H[3] = {7.0, 8.0, 9.0};
+        hci_effects_add_flux_slope(&machine.machine, which ? &list.list : NULL, NAN, 0.3, &i, slope_Vs,
+                                   inductance_H);
+        TEST_ASSERT_TRUE(slope_Vs[0] == 0.5 && slope_Vs[1] == -0.5);
+        for (int k = 0; k < 3; ++k)
+            TEST_ASSERT_EQUAL_DOUBLE(0.0, inductance_H[k]);
+    }
+}
+
+/* The flux of L_d alone is L_d i_d along d = (cos θ, sin θ): its slope by the mechanical angle is
+ * p L_d ((di_d/dθ + i_q) d + i_d q), where di/dθ is that of the currents in the plane. */
+static void test_the_flux_of_an_inductance(void)
+{
+    const double d_H = 2e-3, theta = 0.7, c = cos(theta), s = sin(theta), p = machine.machine.pole_pairs;
+    const hci_plane_current i = {{1.5, -2.0}, {0.4, 3.0}};
+    const double i_d = c * i.x[0] + s * i.x[1], i_q = -s * i.x[0] + c * i.x[1],
+                 along_d = c * i.slope[0] + s * i.slope[1] + i_q;
+    double slope_Vs[2] = {0.5, -0.5}, inductance_H[3] = {7.0, 8.0, 9.0};
+    el_add(&list, "reluctance", "dd_cosine", 0.0, d_H);
+    hci_effects_add_flux_slope(&machine.machine, &list.list, NAN, theta, &i, slope_Vs, inductance_H);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-15, d_H * c * c, inductance_H[0]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-15, d_H * c * s, inductance_H[1]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-15, d_H * s * s, inductance_H[2]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.5 + p * d_H * (along_d * c - i_d * s), slope_Vs[0]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, -0.5 + p * d_H * (along_d * s + i_d * c), slope_Vs[1]);
+}
+
 /* L_d and L_q of their own; an order above 0, and what couples both, have no mean. */
 static void saliency_add(double d_H, double q_H)
 {
@@ -85,6 +117,8 @@ static void test_torque_constant(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_no_flux_of_no_effects);
+    RUN_TEST(test_the_flux_of_an_inductance);
     RUN_TEST(test_mean_inductance);
     RUN_TEST(test_the_same_in_both_axes);
     RUN_TEST(test_a_saliency_counts_once);

@@ -3,6 +3,7 @@
 #include "host/recording/turn_ways.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "host/base/memory.h"
 #include "support/recording.h"
@@ -61,6 +62,21 @@ static bool find(void)
     hci_turn_ways_release(&ways);
     TEST_ASSERT_EQUAL(HCI_OK, hci_turn_ways_find(&run, POLE_PAIRS, &ways, &found));
     return found;
+}
+
+/* What stood there before is gone, whatever a run lacks. */
+static void test_nothing_is_left_where_nothing_is_found(void)
+{
+    bool found = true;
+    double *time_s = run.time_s;
+    record(SPEED);
+    run.time_s = NULL;
+    memset(&ways, 0x5a, sizeof ways);
+    TEST_ASSERT_EQUAL(HCI_OK, hci_turn_ways_find(&run, POLE_PAIRS, &ways, &found));
+    run.time_s = time_s;
+    TEST_ASSERT_FALSE(found);
+    for (int d = 0; d < 2; ++d)
+        TEST_ASSERT_TRUE(ways.way[d].order == NULL && ways.way[d].seen == NULL && !ways.way[d].any);
 }
 
 /* −t″/t′³ where t′ = 1/ω + k A cos(kθ + a). */
@@ -218,6 +234,7 @@ static void test_what_has_no_ways(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_nothing_is_left_where_nothing_is_found);
     RUN_TEST(test_waves_of_both_ways);
     RUN_TEST(test_orders_of_the_acceleration);
     RUN_TEST(test_electrical_turns);
