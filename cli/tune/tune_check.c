@@ -1,4 +1,5 @@
 /* What check says of the logs, and whether anything can be solved with them. */
+#include <ctype.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -9,6 +10,7 @@
 #include "cli/tune/tune_facts.h"
 #include "cli/tune/tune_options.h"
 #include "cli/tune/tune_read.h"
+#include "cli/tune/tune_sheet.h"
 #include "cli/tune/tune_size.h"
 #include "cli/tune/tune_steps.h"
 #include "cli/tune/tune_suspect.h"
@@ -45,13 +47,18 @@ static void append(cli_tuning *t, const char *format, ...)
     va_end(list);
 }
 
-/* The probability of a finding among those that can be here. */
-static double probability_of(const cli_tuning *t, const hci_check *c, const hci_check_finding *f)
+static double excluded_of(const cli_tuning *t, const hci_check *c)
 {
     double excluded = 0.0;
     for (size_t k = 0; k < c->findings; ++k)
         excluded += is_excluded(t, c->finding[k].slip) ? c->finding[k].probability : 0.0;
-    return f->probability / fmax(1.0 - excluded, f->probability);
+    return excluded;
+}
+
+/* The probability of a finding among those that can be here. */
+static double probability_of(const cli_tuning *t, const hci_check *c, const hci_check_finding *f)
+{
+    return f->probability / fmax(1.0 - excluded_of(t, c), f->probability);
 }
 
 /* The torque over what the currents make; 1: not known. */
@@ -128,7 +135,7 @@ static void said_number(const char *cell, char text[32])
 static void say_finding(cli_tuning *t, const hci_check *c, const hci_check_finding *f)
 {
     const double probability = probability_of(t, c, f);
-    const bool is_found = probability >= HCI_CHECK_FOUND;
+    const bool is_found = probability >= HCI_CHECK_FOUND && !t->slip_is_of_sheet;
     char found[32];
     said_number(f->found, found);
     hci_tuning_say(&t->tuning, is_found ? HCI_TUNING_READ : HCI_TUNING_UNKNOWN,
@@ -136,6 +143,58 @@ static void say_finding(cli_tuning *t, const hci_check *c, const hci_check_findi
                    is_found ? "slip" : "possible slip", f->words, 100.0 * probability, f->file, f->line,
                    f->column, strlen(f->found) < sizeof found ? found : f->found, f->should_be);
     if (is_found && !t->has_slip) take_slip(t, c, f, probability);
+}
+
+/* ---- a number of the sheet, typed without its unit ---- */
+
+/* Relations that the strength of the magnets alone puts right. */
+static bool is_of_magnets(const char *relation)
+{
+    static const char *const NAMES[] = {"torque_size", "flux_size", "flux_per_current"};
+    for (size_t k = 0; k < sizeof NAMES / sizeof *NAMES; ++k)
+        if (strcmp(NAMES[k], relation) == 0) return true;
+    return false;
+}
+
+/* Whether nothing but the strength of the magnets has to be another one where the columns are in the units
+ * that they say. */
+static bool may_be_of_sheet(const hci_check *c)
+{
+    bool is_torque = false;
+    for (size_t k = 0; k < c->evidences; ++k) {
+        const hci_check_evidence *e = &c->evidence[k];
+        if (e->state == HCI_CHECK_AGREES || e->state == HCI_CHECK_UNJUDGED) continue;
+        if (!is_of_magnets(e->name)) return false;
+        is_torque = is_torque || strcmp(e->name, "torque_size") == 0;
+    }
+    for (size_t k = 0; k < c->findings; ++k)
+        if (is_of_unit(c->finding[k].slip) && !c->finding[k].names_unit) return false;
+    return is_torque && fabs(log(torque_ratio(c))) > log(CLI_TUNE_ANOTHER_TORQUE);
+}
+
+/* "the torque is in mN·m, whatever its column says (--column 'torque_mNm=Moment [Nm]'), or " */
+static void append_units(cli_tuning *t, const hci_check *c)
+{
+    for (size_t k = 0; k < c->findings; ++k) {
+        const hci_check_finding *f = &c->finding[k];
+        const char *column = strstr(f->should_be, "--column");
+        if (is_of_unit(f->slip) && f->probability + excluded_of(t, c) <= 1.0 && column)
+            append(t, "%s, whatever its column says (%.200s), or ", f->words, column);
+    }
+}
+
+/* A number that was typed without a unit is more often wrong than a column that says its own. */
+static void judge_number(cli_tuning *t, const hci_check *c)
+{
+    char number[512];
+    if (!may_be_of_sheet(c)) return;
+    t->torque_to_sheet = torque_ratio(c);
+    if (!cli_tune_say_meant_strength(t, number, sizeof number)) return;
+    t->has_slip = t->slip_is_of_sheet = true;
+    append(t, "%c%s. Else ", toupper(number[0]), number + 1);
+    append_units(t, c);
+    append(t, "the torque is of the other side of a gear, or of another motor. Nothing was solved; voltages of "
+           "the open machine tell the number");
 }
 
 static void say_evidence(cli_tuning *t, const hci_check_evidence *e)
@@ -254,7 +313,9 @@ static const char *unit_of_torque(double ratio)
     if (fabs(ratio * 30.0 / HCI_PI - 1.0) < 2.0 * OF_A_UNIT)
         return " (as Kv in rad/s per V would, or a figure of the sheet whose point is at another place)";
     if (is_ten_times(ratio)) return " (as a figure of the sheet whose point is at another place would)";
-    return fabs(ratio * 1000.0 - 1.0) < 2.0 * OF_A_UNIT ? " (as a constant in mN·m/A would)" : "";
+    return fabs(ratio * 1000.0 - 1.0) < 2.0 * OF_A_UNIT
+               ? " (as a constant in mN·m/A would, or a torque in N·m whose column says mN·m)"
+               : "";
 }
 
 static void judge_torque(cli_tuning *t, const hci_check *c, const hci_check_evidence *e)
@@ -449,6 +510,7 @@ hci_status cli_tune_check(cli_tuning *t, hci_note *note)
     cli_tune_add(&c, "-o");
     cli_tune_add(&c, folder);
     cli_tune_note_line(t, &c, true);
+    judge_number(t, &check);
     say_check(t, &check);
     judge_check(t, &check);
     return hci_check_write(&check, folder, note);

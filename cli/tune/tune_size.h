@@ -24,8 +24,7 @@ bool cli_tune_is_unpromised(const cli_tuning *tune);
  * false: none has. text: of size bytes. */
 bool cli_tune_say_mixed_torque(const cli_tuning *tune, char *text, size_t size);
 
-/* Which number of the data sheet cannot be believed in its unit, by the recordings or by what motors have,
- * and what would be; false: none. text: of size bytes. */
-bool cli_tune_say_sheet(const cli_tuning *tune, char *text, size_t size);
+/* What --column calls a torque that is so many times too large for N·m; "": no unit that is known. */
+const char *cli_tune_torque_unit(double times);
 
 #endif

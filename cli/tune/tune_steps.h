@@ -72,6 +72,7 @@ typedef struct {
     bool slip_is_of_poles; /* has_slip: of the number of pole pairs */
     bool slip_is_of_frame; /* has_slip: of angle, phases or poles, and of no size */
     bool slip_is_of_unit;  /* has_slip: a column of the recordings has another unit */
+    bool slip_is_of_sheet; /* has_slip: a number of the sheet in another unit would do, and is said first */
     bool is_not_followed;  /* the angle of a recording does not go where its speed leads */
     size_t not_followed;   /* is_not_followed: which recording's */
     double stranger_order; /* the largest of the cogging torque found, where slots and poles make another one

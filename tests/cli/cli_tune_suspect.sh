@@ -268,20 +268,40 @@ zeroed z1.csv 0 1 1; zeroed z2.csv 0 -1 2; zeroed z3.csv 2 1 3; zeroed z4.csv 2 
 run 1 tune z1.csv z2.csv z3.csv z4.csv --pole-pairs 4 --kv 18.38 -o zeroed
 says 'a torque without ripple of 0.9[0-9]* N·m: the largest mean torque of the'
 check "the zero is not said" grep -q 'less the zero of its sensor' zeroed/summary.json
-# a point at another place of the sheet's figure looks like another unit of the torque
+# a number of the sheet that was typed without a unit is more often wrong than a column that says its own: it is said first
 loaded three.csv 3 1 4
 loaded none.csv 0 1 3
-run 1 tune none.csv two.csv three.csv --pole-pairs 4 --kv 183.8 -o point
-says 'a convention is broken: .*(--kv is 10 times too large|whose point is at another place)'
-run 1 tune none.csv two.csv three.csv --pole-pairs 4 --torque-constant 0.045 -o point
-says 'a convention is broken: .*(--torque-constant is 10 times too small|whose point is at another place)'
+while read -r option given meant; do
+    run 1 tune none.csv two.csv three.csv --pole-pairs 4 $option $given -o point
+    says "^a convention is broken: The torques of the logs are [0-9.]* times those of $option $given, and $option $meant fits: begin again"
+    check "$option $given: the column is said to be the slip" [ "$(grep -cE '^  slip:|Most likely' stdout)" = 0 ]
+    check "$option $given: what fits is said twice" [ "$(grep -c -e "$option $meant fits" stdout)" = 1 ]
+done <<'END'
+--kv 183.8 18.38
+--kv 18380 18.38
+--kv 1.838 18.38
+--torque-constant 0.045 0.45
+--torque-constant 450 0.45
+--volt-per-krpm 0.0385 38.5
+--volt-per-krpm 38500 38.5
+--flux 75 0.075
+END
+says 'Else the currents are in mA, whatever its column says .--column .ia_mA=ia_A.*, or the torque is of the other side of a gear'
+# beside a column without a unit it is not, and where the currents are a thousand times what is rated it is their column
+for log in none two three; do
+    sed '1s/torque_Nm/torque/' $log.csv >bare_$log.csv
+    awk -F, -v OFS=, 'NR > 1 { for (k = 3; k <= NF; ++k) if (name[k] ~ /^i/) $k *= 1000 } NR == 1 { for (k = 1; k <= NF; ++k) name[k] = $k } 1' $log.csv >milli_$log.csv
+done
+run 1 tune bare_none.csv bare_two.csv bare_three.csv --pole-pairs 4 --volt-per-krpm 0.0385 -o point
+says '^a convention is broken: Most likely the torque is in mN·m'
+run 1 tune milli_none.csv milli_two.csv milli_three.csv --pole-pairs 4 --volt-per-krpm 38.5 --rated-current 3 -o point
+says '^a convention is broken: Most likely the currents are in mA'
+check "another constant is proposed beside it" [ "$(grep -c 'begin again with it' stdout)" = 0 ]
 
 # a figure of the sheet with another unit: the first line has the number that fits, by torques or by what motors have
 run 1 tune none.csv two.csv three.csv --pole-pairs 4 --kv 38.5 -o sheet
 says '^[a-z ,]*: ' '^  - The torques of the logs are 2\.0?9?[0-9]* times those of --kv 38\.5, and --volt-per-krpm 38\.5 fits'
 check "not in summary.json" grep -q 'volt-per-krpm 38\.5 fits' sheet/summary.json
-run 1 tune none.csv two.csv three.csv --pole-pairs 4 --torque-constant 450 -o sheet
-says 'and --torque-constant 0\.45 fits'
 for given in '--flux 14' '--kv 0.1' '--torque-constant 150'; do
     run 1 tune even.csv --pole-pairs 7 $given --torque 0.2 -o sheet
     number=${given#* }
@@ -292,6 +312,12 @@ run 1 tune even.csv --pole-pairs 7 --kv 100 --rated-current 5000 --torque 0.2 -o
 says 'is it in mA .--rated-current 5.'
 run 1 tune even.csv --pole-pairs 7 --kv 100 --resistance 800 --torque 0.2 -o sheet
 says 'is it in mΩ .--resistance 0\.8.'
+run 1 tune even.csv --pole-pairs 7 --kv 100 --inductance-d 0.5 --inductance-q 0.7 --rated-current 1 --torque 0.01 -o sheet
+says 'is it in mH .--inductance-d 0\.0005, and the other likewise.'
+run 1 tune none.csv two.csv three.csv --pole-pairs 4 --kv 18.38 --inertia 200 -o sheet
+says '^  - With --inertia 200 a torque of [0-9.]* N·m .*is it in g·cm² .--inertia 2e-05.'
+run 2 tune even.csv --pole-pairs 7 --kv 100 --inductance-d 5 --inductance-q 12 -o sheet
+says '--inductance-q: found `12`, expected a number from 1e-12 to 10; give it in H, not mH'
 
 # what is no log: a page, JSON, C, and currents that were calculated
 run 1 tune none.csv two.csv three.csv --pole-pairs 4 --kv 18.38 -o whole
@@ -369,7 +395,13 @@ says '^a convention is broken: ' '^  - The torques of the logs are [0-9]* times 
 check "a figure of the sheet in place of the unit of a column" [ "$(grep -c 'krpm 9750' "$work/stdout")" -eq 0 ]
 awk -F, 'NR == 1 { print "t [s],Angle [rad],Speed [rad/s],i_q [A],Torque [Nm]"; next } { print $1 "," $2 * 57.29578 "," $3 "," $5 "," $6 }' droop0.8.csv >degrees_as_rad.csv
 run 3 tune degrees_as_rad.csv --pole-pairs 5 --volt-per-krpm 97.5 -o none
-says 'found an angle that may be mechanical or electrical, expected one that goes where the speed leads; by the speed and the time of this file'
+says "degrees_as_rad.csv:1: column 2 .*: found an angle that does not go where speed and time lead, .*; the three agree where .Angle \[rad\]. is in another unit: --column 'theta_m_deg=Angle \[rad\]'"
+awk -F, 'NR == 1 { print "t [s],Angle [rad],Speed [rad/s],i_q [A],Torque [Nm]"; next } { print $1 ",0.3,0," $5 "," $6 }' droop0.8.csv >still.csv
+run 3 tune still.csv --pole-pairs 5 --volt-per-krpm 97.5 -o none
+says 'still.csv:1: column 2 .*: found an angle that stands: the shaft does not turn in this recording, expected one that turns; .*record again with the shaft turned, once round or more'
+{ echo 'Bench 3;Motor A;;;'; echo 't [s];Angle [rad];Speed [rad/s];i_q [A];Torque [Nm]'; } >no_rows.csv
+run 3 tune no_rows.csv --pole-pairs 5 --volt-per-krpm 97.5 -o none
+says 'no_rows.csv:2: found a header and no samples below it'
 check "the speed is asked for although it is there" [ "$(grep -c 'add the speed' "$work/stderr")" -eq 0 ]
 
 # ---- voltages of a scope alone: what the drive has to know of its angle

@@ -6,6 +6,7 @@
 
 #include "cli/tune/tune_cover.h"
 #include "cli/tune/tune_facts.h"
+#include "cli/tune/tune_sheet.h"
 #include "cli/tune/tune_size.h"
 #include "cli/tune/tune_suspect.h"
 #include "cli/tune/words/tune_heading.h"

@@ -5,6 +5,7 @@
 
 #include "cli/tune/tune_commands.h"
 #include "cli/tune/tune_facts.h"
+#include "cli/tune/tune_sheet.h"
 #include "cli/tune/tune_size.h"
 #include "cli/tune/tune_suspect.h"
 #include "hci/host/waveform/turning_load.h"
@@ -279,7 +280,7 @@ static void append_of_doubt(cli_tuning *t)
 static void append_of_sheet(cli_tuning *t)
 {
     char words[512];
-    if (cli_tune_say_sheet(t, words, sizeof words)) cli_tune_caveat(t, "%s", words);
+    if (!t->slip_is_of_sheet && cli_tune_say_sheet(t, words, sizeof words)) cli_tune_caveat(t, "%s", words);
 }
 
 /* Ratings and constants that do not fit what is in the logs. */
@@ -358,7 +359,7 @@ static void append_of_table(cli_tuning *t)
 void cli_tune_table_caveats(cli_tuning *t)
 {
     append_of_zero(t);
-    append_of_loop(t);
     append_of_sheet(t);
+    append_of_loop(t);
     append_of_table(t);
 }

@@ -430,6 +430,7 @@ void hci_check_error_locate(const check_error *error, const check_data *data, co
     finding->told_by = error->told_by;
     snprintf(finding->file, sizeof finding->file, "%s", place->path);
     finding->line = place->line;
+    finding->names_unit = place->names_unit;
     memcpy(finding->column, place->column, sizeof finding->column);
     memcpy(finding->found, place->text, sizeof finding->found);
     fill(finding->should_be, error->should_be, right_number(error, data, as));

@@ -161,6 +161,21 @@ static bool is_rival(line_reader *r, const char *line, const char *header, size_
     return is_names(&kind) && kind.count == count && known_names(r, line) >= known_names(r, header);
 }
 
+/* The last line of the text, as far as it is looked at, if it is longer than all before it and has two names
+ * or more of columns of recordings: a header whose rows are missing. NULL: it is none. */
+static const char *last_names(line_reader *r, const char *first)
+{
+    const char *line = first, *last = NULL;
+    size_t most = 0;
+    for (int k = 0; k < LINES_MOST && *line != '\0'; ++k, line = find_line(next_line(line))) {
+        const line_kind kind = classify(r, line, hci_csv_separator(line));
+        if (is_units(&kind)) continue;
+        last = is_names(&kind) && kind.count > most && known_names(r, line) > 1 ? line : NULL;
+        if (kind.count > most) most = kind.count;
+    }
+    return *line == '\0' ? last : NULL;
+}
+
 const char *hci_csv_table_start(const char *text, bool *has_foreword)
 {
     line_reader r;
@@ -175,7 +190,9 @@ const char *hci_csv_table_start(const char *text, bool *has_foreword)
         *has_foreword = line > first;
         return line;
     }
-    return first;
+    const char *const bare = last_names(&r, first);
+    *has_foreword = bare && bare > first;
+    return bare ? bare : first;
 }
 
 /* ---- rows without a header ---- */

@@ -89,7 +89,8 @@ char hci_csv_separator(const char *line);
 
 /* Where the table begins in the text of a file: at its first line that is neither blank nor a comment, unless
  * that and what follows it cannot be but a foreword: then at the first line of names with rows of as many
- * numbers below it. has_foreword: out, whether that is so. */
+ * numbers below it, or, in a text without rows, at its last line if that names columns of recordings.
+ * has_foreword: out, whether that is so. */
 const char *hci_csv_table_start(const char *text, bool *has_foreword);
 
 /* The line, from 1, at which rows of numbers begin below lines that are no header for them, each of one cell;

@@ -1,6 +1,7 @@
 #include "host/recording/bare_angle.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "hci/math/harmonic.h"
@@ -78,26 +79,6 @@ static void hold(double *x, size_t n)
         if (!isfinite(x[k])) x[k] = x[k - 1];
 }
 
-static hci_status compare(hci_csv *csv, size_t column, int pole_pairs, double *x, hci_note *note)
-{
-    const size_t n = hci_csv_rows(csv);
-    hci_run_column which;
-    if (!read(csv, name(HCI_RUN_TIME), x + TIME * n) || !read(csv, name(HCI_RUN_SPEED), x + SPEED * n))
-        return HCI_OK;
-    hold(x + SPEED * n, n);
-    hci_status status = hci_csv_give(csv, "theta_m", column, note); /* in the unit of the file */
-    const bool is_read = !status && read(csv, name(HCI_RUN_THETA_M), x + ANGLE * n);
-    if (!status) --csv->given_count;
-    if (status || !is_read) return status;
-    if (decide(ratio_of(x, n, 2.0 * HCI_PI), pole_pairs, &which))
-        return give(csv, column, which, false, note);
-    if (hci_column_unit(csv, column) == NULL && decide(ratio_of(x, n, 360.0), pole_pairs, &which))
-        return give(csv, column, which, true, note);
-    return HCI_OK;
-}
-
-/* ---- a speed whose unit is that of its name alone ---- */
-
 #define OF_A_UNIT 0.02 /* of a ratio that units make: pole pairs make others */
 
 enum { PARTS = 16 }; /* of a recording: noise of the speed leaves their ways as they are */
@@ -121,6 +102,35 @@ static double ratio_of_ways(const double *x, size_t n)
     }
     return driven > 0.0 ? turned / driven : 0.0;
 }
+
+/* Time, speed and the angle in the unit of the file; is_read: out, whether they are numbers. */
+static hci_status read_three(hci_csv *csv, size_t column, double *x, bool *is_read, hci_note *note)
+{
+    const size_t n = hci_csv_rows(csv);
+    *is_read = read(csv, name(HCI_RUN_TIME), x + TIME * n) && read(csv, name(HCI_RUN_SPEED), x + SPEED * n);
+    if (!*is_read) return HCI_OK;
+    hold(x + SPEED * n, n);
+    const hci_status status = hci_csv_give(csv, "theta_m", column, note);
+    *is_read = !status && read(csv, name(HCI_RUN_THETA_M), x + ANGLE * n);
+    if (!status) --csv->given_count;
+    return status;
+}
+
+static hci_status compare(hci_csv *csv, size_t column, int pole_pairs, double *x, hci_note *note)
+{
+    const size_t n = hci_csv_rows(csv);
+    hci_run_column which;
+    bool is_read;
+    const hci_status status = read_three(csv, column, x, &is_read, note);
+    if (status || !is_read) return status;
+    if (decide(ratio_of(x, n, 2.0 * HCI_PI), pole_pairs, &which))
+        return give(csv, column, which, false, note);
+    if (hci_column_unit(csv, column) == NULL && decide(ratio_of(x, n, 360.0), pole_pairs, &which))
+        return give(csv, column, which, true, note);
+    return HCI_OK;
+}
+
+/* ---- a speed whose unit is that of its name alone ---- */
 
 /* In which unit a speed is that is read in rad/s too large by 1/ratio; NULL: in none. guessed: rad/s of a 1.
  */
@@ -196,6 +206,103 @@ static hci_status angle_decide(hci_csv *csv, int pole_pairs, double *x, hci_note
     return hci_csv_unclear(csv, &column) ? compare(csv, column, pole_pairs, x, note) : HCI_OK;
 }
 
+/* ---- an angle that no unit of its own makes go where the speed leads ---- */
+
+#define STANDS_RAD 0.006 /* a third of a degree: an encoder's count flickers */
+
+static bool stands(const double *angle, size_t n)
+{
+    double least = HUGE_VAL, most = -HUGE_VAL;
+    for (size_t k = 0; k < n; ++k)
+        if (isfinite(angle[k])) least = fmin(least, angle[k]), most = fmax(most, angle[k]);
+    return most - least < STANDS_RAD;
+}
+
+/* How far the speed leads from where the shaft was at some time, there and back. */
+static double driven_rad(const double *x, size_t n)
+{
+    double at = 0.0, least = 0.0, most = 0.0;
+    for (size_t k = 1; k < n; ++k) {
+        const double way = x[SPEED * n + k] * (x[TIME * n + k] - x[TIME * n + k - 1]);
+        at += isfinite(way) ? way : 0.0;
+        least = fmin(least, at), most = fmax(most, at);
+    }
+    return most - least;
+}
+
+static hci_status stands_error(const hci_csv *csv, size_t column, bool is_driven, hci_note *note)
+{
+    const hci_csv_fault fault = {
+        .line = hci_csv_record_line(csv, 0),
+        .column = column,
+        .name = hci_csv_name(csv, column),
+        .found = is_driven ? "an angle that stands while the speed says that the shaft turns"
+                           : "an angle that stands: the shaft does not turn in this recording",
+        .expected = "one that turns",
+        .remedy =
+            is_driven
+                ? "is the encoder connected, and is that the column of the angle? say which is: --column "
+                  "theta_m_deg=COLUMN"
+                : "one place tells nothing of a ripple: record again with the shaft turned, once round "
+                  "or more, slowly by position control or by another machine"};
+    return hci_csv_fault_note(csv, &fault, note);
+}
+
+/* The column that has another unit than it says, by the way of the angle to that of the speed. */
+static const char *other_unit(double ratio, hci_run_column *which)
+{
+    static const struct {
+        double ratio;
+        hci_run_column which;
+        const char *name;
+    } UNITS[] = {{1e-3, HCI_RUN_TIME, "time_ms"},
+                 {1e-6, HCI_RUN_TIME, "time_us"},
+                 {1e3, HCI_RUN_TIME, "time_s"},
+                 {1e6, HCI_RUN_TIME, "time_s"},
+                 {30.0 / HCI_PI, HCI_RUN_SPEED, "speed_rad_per_s"},
+                 {HCI_PI / 30.0, HCI_RUN_SPEED, "speed_rpm"}};
+    for (size_t k = 0; k < sizeof UNITS / sizeof *UNITS; ++k)
+        if (fabs(ratio / UNITS[k].ratio - 1.0) < OF_A_UNIT) {
+            *which = UNITS[k].which;
+            return UNITS[k].name;
+        }
+    return NULL;
+}
+
+/* x: time, speed and angle, in their canonical units as the file says them. */
+static hci_status unit_error(const hci_csv *csv, size_t column, int pole_pairs, const double *x,
+                             hci_note *note)
+{
+    const size_t n = hci_csv_rows(csv);
+    char remedy[240];
+    hci_run_column which = HCI_RUN_THETA_M;
+    const char *as = NULL, *other = hci_csv_name(csv, column);
+    if (decide(ratio_of(x, n, 360.0), pole_pairs, &which))
+        as = which == HCI_RUN_THETA_M ? "theta_m_deg" : "theta_e_deg";
+    else if ((as = other_unit(ratio_of_ways(x, n), &which)) != NULL)
+        other = hci_csv_name(csv, hci_column_find(csv, name(which)).column);
+    if (as == NULL) return HCI_OK;
+    snprintf(remedy, sizeof remedy, "the three agree where `%.60s` is in another unit: --column '%s=%.60s'",
+             other, as, other);
+    const hci_csv_fault fault = {.line = hci_csv_record_line(csv, 0),
+                                 .column = column,
+                                 .name = hci_csv_name(csv, column),
+                                 .found = "an angle that does not go where speed and time lead",
+                                 .expected = "one that does, in the units of the columns",
+                                 .remedy = remedy};
+    return hci_csv_fault_note(csv, &fault, note);
+}
+
+static hci_status explain(hci_csv *csv, size_t column, int pole_pairs, double *x, hci_note *note)
+{
+    const size_t n = hci_csv_rows(csv);
+    bool is_read;
+    const hci_status status = read_three(csv, column, x, &is_read, note);
+    if (status || !is_read) return status;
+    return stands(x + ANGLE * n, n) ? stands_error(csv, column, driven_rad(x, n) > 1.0, note)
+                                    : unit_error(csv, column, pole_pairs, x, note);
+}
+
 hci_status hci_bare_angle_decide(hci_csv *csv, int pole_pairs, hci_note *note)
 {
     const size_t n = hci_csv_rows(csv);
@@ -206,6 +313,21 @@ hci_status hci_bare_angle_decide(hci_csv *csv, int pole_pairs, hci_note *note)
     hci_status status = angle_decide(csv, pole_pairs, x, note);
     if (!status) status = speed_decide(csv, x, note);
     if (!status) status = angle_decide(csv, pole_pairs, x, note);
+    hci_memory_free(x);
+    return status;
+}
+
+hci_status hci_bare_angle_explain(hci_csv *csv, int pole_pairs, hci_note *note)
+{
+    const size_t n = hci_csv_rows(csv);
+    size_t column;
+    if (n < 2 || hci_csv_has(csv, name(HCI_RUN_THETA_M)) || hci_csv_has(csv, name(HCI_RUN_THETA_E)) ||
+        !hci_csv_unclear(csv, &column) || !hci_csv_has(csv, name(HCI_RUN_TIME)) ||
+        !hci_csv_has(csv, name(HCI_RUN_SPEED)))
+        return HCI_OK;
+    double *x = hci_memory_new(COLUMNS * n, sizeof *x);
+    if (x == NULL) return hci_note_memory(note, hci_csv_path(csv), "its angle");
+    const hci_status status = explain(csv, column, pole_pairs, x, note);
     hci_memory_free(x);
     return status;
 }

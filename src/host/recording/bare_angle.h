@@ -13,4 +13,9 @@
  * HCI_ERROR_MEMORY. O(rows). */
 hci_status hci_bare_angle_decide(hci_csv *csv, int pole_pairs, hci_note *note);
 
+/* Of an angle that is still not told, why: HCI_ERROR_INPUT where it stands, or goes as time and speed say in
+ * another unit of one of the three columns, which is named; HCI_OK of any other file. HCI_ERROR_MEMORY.
+ * O(rows). */
+hci_status hci_bare_angle_explain(hci_csv *csv, int pole_pairs, hci_note *note);
+
 #endif

@@ -821,6 +821,7 @@ hci_status hci_run_csv(const char *path, const hci_run_options *options, hci_csv
     if (!status) status = hci_clocks_agree(*csv, note);
     if (!status) status = hci_rows_by_time(*csv, note);
     if (!status) status = hci_bare_angle_decide(*csv, options->pole_pairs, note);
+    if (!status) status = hci_bare_angle_explain(*csv, options->pole_pairs, note);
     if (!status) return status;
     hci_csv_free(*csv);
     *csv = NULL;

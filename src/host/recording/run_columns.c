@@ -28,10 +28,10 @@ static hci_status memory_error(const hci_run_columns *c)
 static hci_status no_samples(const hci_run_columns *c)
 {
     char path[HCI_QUOTE_PATH_SIZE];
-    return hci_note_set(
-        c->note, HCI_ERROR_INPUT,
-        "%s: found a header and no samples, expected a row for each sample; record the run again",
-        hci_quote_path(hci_csv_path(c->csv), path));
+    return hci_note_set(c->note, HCI_ERROR_INPUT,
+                        "%s:%zu: found a header and no samples below it, expected a row for each sample; "
+                        "record the run again",
+                        hci_quote_path(hci_csv_path(c->csv), path), hci_csv_record_line(c->csv, 0));
 }
 
 static bool has_any(const hci_run_columns *c)
@@ -552,6 +552,11 @@ const char *hci_run_column_header(const hci_run_columns *c, hci_run_column which
 double hci_run_column_factor(const hci_run_columns *c, hci_run_column which)
 {
     return fabs(hci_column_find(c->csv, NAME[which]).factor);
+}
+
+bool hci_run_column_names_unit(const hci_run_columns *c, hci_run_column which)
+{
+    return c->has[which] && hci_column_find(c->csv, NAME[which]).has_unit;
 }
 
 size_t hci_run_column_unit_line(const hci_run_columns *c, hci_run_column which)

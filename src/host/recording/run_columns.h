@@ -90,6 +90,9 @@ double hci_run_column_factor(const hci_run_columns *c, hci_run_column which);
 /* The line of the row of units, where that names the unit of a column; 0: none does. */
 size_t hci_run_column_unit_line(const hci_run_columns *c, hci_run_column which);
 
+/* Whether a column that the file has says its unit, by its header, the row of units or who named it. */
+bool hci_run_column_names_unit(const hci_run_columns *c, hci_run_column which);
+
 /* Reads a column into c->value, if the file has it. HCI_ERROR_INPUT with line and column, HCI_ERROR_MEMORY.
  */
 hci_status hci_run_column_read(hci_run_columns *c, hci_run_column which);

@@ -78,10 +78,21 @@ static void test_tables_behind_a_foreword(void)
     check("time_s,iq_A\nfoo,3\n|speed_rpm,id_A,lamp\n0,1,2\n1,2,3\n", true); /* of another length */
 }
 
+/* The last line, where it is the longest and two of its names are known; units may follow. */
+static void test_a_header_without_rows(void)
+{
+    check("Logger 5\n|time_s,iq_A\n", true);
+    check("Logger 5\n|time,iq\ns,A\n\n# end\n", true);
+    check("Bench 3;Motor A;12.03.2026;;\n|Zeit [ms];Winkel [\xC2\xB0];I_U [A];I_V [A]\n", true);
+    check("|time_s,iq_A\ns,A\n", false);
+    check("|name,column\ntime_s,iq_A\n", false);   /* no more than the first */
+    check("|Logger 5\ntime_s,lamp\n", false);      /* one that is known */
+    check("|Logger 5\ntime_s,iq_A\nx,1\n", false); /* not the last */
+}
+
 /* Lines that are no header, or have no rows. */
 static void test_lines_that_are_no_header(void)
 {
-    check("|Logger 5\ntime_s,iq_A\n", false);
     check("|Logger 5\ntime_s,iq_A\nx,1\n1,2\n", false); /* one number in a row */
     check("|Logger 5\ntime_s,iq_A\n0,1\nx,2\n", false);
     check("|Logger 5\na,b,c,d\n0,1,,\n1,2,,\n", false);                /* two of four names */
@@ -135,6 +146,7 @@ int main(void)
     RUN_TEST(test_separators);
     RUN_TEST(test_tables_at_the_first_line);
     RUN_TEST(test_tables_behind_a_foreword);
+    RUN_TEST(test_a_header_without_rows);
     RUN_TEST(test_lines_that_are_no_header);
     RUN_TEST(test_how_far_a_header_is_looked_for);
     RUN_TEST(test_rows_without_a_header);

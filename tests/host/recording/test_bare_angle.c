@@ -172,6 +172,46 @@ static void test_nothing_to_decide(void)
     TEST_ASSERT_EQUAL(0, csv->given_count);
 }
 
+/* ---- why it is not told ---- */
+
+static void is_explained(const char *speed_name, const char *angle_name, const char *words)
+{
+    memset(&note, 0, sizeof note);
+    TEST_ASSERT_EQUAL(HCI_OK, decide(speed_name, angle_name, N, 4));
+    TEST_ASSERT_EQUAL(words ? HCI_ERROR_INPUT : HCI_OK, hci_bare_angle_explain(csv, 4, &note));
+    if (words) text_has(words, note.text);
+}
+
+/* A shaft that stands, an encoder that does beside a speed, and each of the three in another unit than it
+ * says. */
+static void test_why_not(void)
+{
+    move(180.0 / PI, 360.0, 1.0, true);
+    is_explained("speed_rad_per_s", "theta [rad]", "--column 'theta_m_deg=theta [rad]'");
+    move(4.0 * 180.0 / PI, 360.0, 1.0, true);
+    is_explained("speed_rad_per_s", "theta [rad]", "--column 'theta_e_deg=theta [rad]'");
+    move(1.0, 2.0 * PI, PI / 30.0, true);
+    is_explained("speed_rad_per_s", "theta [rad]", "--column 'speed_rpm=speed_rad_per_s'");
+    move(1.0, 2.0 * PI, 30.0 / PI, false);
+    is_explained("speed_rad_per_s", "theta [rad]", "--column 'speed_rad_per_s=speed_rad_per_s'");
+    move(1.0, 2.0 * PI, 1.0, true);
+    for (size_t k = 0; k < N; ++k)
+        time_s[k] *= 1e3;
+    is_explained("speed_rad_per_s", "theta [rad]", "--column 'time_ms=time_s'");
+    move(1.5, 2.0 * PI, 1.0, true);
+    is_explained("speed_rad_per_s", "theta [rad]", NULL);
+    move(1.0, 2.0 * PI, 1.0, true);
+    for (size_t k = 0; k < N; ++k)
+        angle[k] = 0.3 + (k % 2 ? 0.005 : 0.0); /* a count that flickers */
+    is_explained("speed_rad_per_s", "theta [rad]", "while the speed says that the shaft turns");
+    memset(speed, 0, sizeof speed);
+    is_explained("speed_rad_per_s", "theta [rad]", "the shaft does not turn in this recording");
+    angle[N / 2] += 0.01;
+    is_explained("speed_rad_per_s", "theta [rad]", NULL);
+    is_explained("speed_rad_per_s", "theta_m_rad", NULL);
+    is_explained("spare", "theta [rad]", NULL);
+}
+
 /* ---- in which unit the speed is ---- */
 
 /* `velocity` is in turn/s where nothing tells otherwise. per: rad/s of the unit that it is in. */
@@ -263,6 +303,7 @@ int main(void)
     RUN_TEST(test_degrees);
     RUN_TEST(test_holes);
     RUN_TEST(test_nothing_to_decide);
+    RUN_TEST(test_why_not);
     RUN_TEST(test_units_of_a_speed);
     RUN_TEST(test_units_by_other_angles);
     RUN_TEST(test_without_memory);

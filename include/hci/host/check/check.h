@@ -50,6 +50,7 @@ typedef struct {
     char column[HCI_CHECK_TEXT];    /* as the header spells it */
     char found[HCI_CHECK_TEXT];     /* what stands there */
     char should_be[HCI_CHECK_TEXT]; /* what it should be */
+    bool names_unit;                /* it is a column that says its unit, by header, row of units or user */
     double probability;             /* of all readings with this slip */
     bool is_no_effect;           /* no effect of a machine or a bench makes numbers like these: poles for pole
                                   * pairs, swapped phases, a sign, a unit of the angle */

@@ -24,6 +24,7 @@ typedef struct {
     char column[CHECK_TEXT]; /* as the header spells it */
     char text[CHECK_TEXT];   /* the cell */
     size_t unit_line;        /* of the row of units that names the unit of the column; 0: none does */
+    bool names_unit;         /* of a column: its header, the row of units, or who named it, says its unit */
 } check_place;
 
 /* ---- machine folder */
