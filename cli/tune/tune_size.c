@@ -190,11 +190,23 @@ static bool say_much_current(const cli_tuning *t, char *text, size_t size)
 static say_reason *const REASON[] = {say_large_cogging, say_against,     say_unlike,
                                      say_little,        say_much_torque, say_much_current};
 
-bool cli_tune_say_excess(const cli_tuning *t, char *text, size_t size)
+static say_reason *reason_of(const cli_tuning *t, char *text, size_t size)
 {
     for (size_t k = 0; k < sizeof REASON / sizeof *REASON; ++k)
-        if (REASON[k](t, text, size)) return true;
-    return false;
+        if (REASON[k](t, text, size)) return REASON[k];
+    return NULL;
+}
+
+bool cli_tune_say_excess(const cli_tuning *t, char *text, size_t size)
+{
+    return reason_of(t, text, size) != NULL;
+}
+
+bool cli_tune_is_unexplained(const cli_tuning *t)
+{
+    char text[1024];
+    say_reason *reason = t->size == CLI_TUNE_EXCESS ? reason_of(t, text, sizeof text) : NULL;
+    return reason == say_unlike || reason == say_little;
 }
 
 void cli_tune_judge_size(cli_tuning *t)

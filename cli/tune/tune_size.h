@@ -11,6 +11,9 @@ void cli_tune_judge_size(cli_tuning *tune);
  * text: of size bytes. */
 bool cli_tune_say_excess(const cli_tuning *tune, char *text, size_t size);
 
+/* Whether none is written for that of the ripple: the model does not explain the recordings. */
+bool cli_tune_is_unexplained(const cli_tuning *tune);
+
 /* What is rated, in N·m; 0: nothing is. */
 double cli_tune_rated_Nm(const cli_tuning *tune);
 

@@ -170,7 +170,7 @@ check "cogging torque from one direction of it" [ "$(grep -c 'harmonics' brake/c
 awk -F';' -v OFS=';' 'NR > 1 { $3 += 0.03 * sin(7 * $4 / 57.29577951) } { print $0, NR == 1 ? "d_axis_voltage;q_axis_voltage" : "0;" 0.5 * $3 + $2 / 66.84507 * 0.08 }' slow.csv >volts.csv
 run 0 tune volts.csv --pole-pairs 7 --kv 120 --slots 12 --rated-current 20 -o volts
 says '^tuned: .* in the model; what harmonics of the real back-EMF add ' 'The back-EMF is not taken from the voltages of volts.csv: '
-check "order 1 is not said to be an offset" grep -q 'order 1 is of the machine: it is most likely the offset of the current sensors, 0\.03 A of i_q' volts/summary.json
+check "order 1 is not said to be an offset" grep -q 'order 1 is of the machine: an offset of the current sensors, 0\.03 A of i_q, makes order 1 whatever the load, and magnets or teeth that are not alike make it too' volts/summary.json
 check "not said what follows the current, nor what to record" grep -q 'and [89][0-9] % of the voltage follows them\. Record voltages with open terminals' volts/summary.json
 check "a back-EMF from a driven machine" [ "$(grep -c back_emf volts/commands.sh)" -eq 0 ]
 for folder in slow volts; do

@@ -38,7 +38,9 @@ slow_turn slow.csv 0
 run 0 tune slow.csv --pole-pairs 7 --kv 120 --rated-current 3 -o plain
 says '^  ripple in the model, N·m .* not known$'
 check "order 1 is told $(grep -c 'Whether order 1 is of' "$work/stdout") times" [ "$(grep -c 'Whether order 1 is of' "$work/stdout")" -eq 1 ]
-says 'i_q as it' 'less the i_q of the'
+for words in 'i_q as it is measured has the table in it' 'i_q less the i_q of the table' 'The torque per ampere takes a torque sensor, or voltages'; do
+    check "not said: $words" grep -q "$words" plain/summary.json
+done
 check "once a turn although it is not there" [ "$(grep -c 'once a' "$work/stdout")" -eq 0 ]
 run 1 tune slow.csv --pole-pairs 7 --kv 120 --rated-current 3 --torque 5 -o much
 made=$(sed -n 's/^  - The table makes \([0-9.]*\) N·m on average, and not the 5 N·m that were wanted.*/\1/p' "$work/stdout")

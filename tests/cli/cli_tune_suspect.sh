@@ -21,7 +21,8 @@ tuned() {
 }
 crawl even.csv x i
 tuned 0 even
-says '^tuned: A ripple of 0.008.* falls to' '± is a standard deviation of the noise alone'
+says '^tuned: A ripple of 0.008.* falls to' '± is a standard deviation of the noise alone' \
+    '^  - Every torque here is a current times the 0\.0827 N·m/A of --kv: nothing in these logs tells it, and where it is ten times too large, so are they all'
 
 crawl hall.csv 'int(42 * x / turn) * turn / 42' i
 tuned 1 hall

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cli/tune/tune_facts.h"
+#include "cli/tune/tune_known.h"
 #include "cli/tune/tune_line.h"
 #include "cli/tune/tune_recorded.h"
 #include "hci/host/waveform/turning_load.h"
@@ -284,17 +285,25 @@ static void say_open_turn(cli_tuning *t, double turn_deg, double error_deg)
     t->open_turn_deg = turn_deg;
     t->open_turn_error_deg = fmax(LEAST_ERROR_DEG, error_deg);
     t->turn_is_of_dq = !has_phases(t);
+    if (cli_tune_has_zero_of_voltages(t)) {
+        hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                       "How large the saliency is: under load the whole back-EMF, order 1 with it, is found "
+                       "turned by %.1f ± %.1f degrees (of the noise alone) against its voltages, which have "
+                       "the zero. A saliency, or one that saturates, makes nearly the same torques of "
+                       "currents near one direction: %s.",
+                       turn_deg, t->open_turn_error_deg, cli_tune_turn_told_by(t));
+        return;
+    }
     hci_tuning_say(
         &t->tuning, HCI_TUNING_UNKNOWN,
         "Where the electrical zero is: the whole back-EMF, order 1 with it, is found turned by "
         "%.1f ± %.1f degrees (of the noise alone) against %s. A saliency, or one that saturates, "
-        "makes of the same currents nearly the same torques as another zero does%s. %s with i_d "
-        "of both signs at two currents, or voltages of the open machine, tell them apart.",
+        "makes of the same currents nearly the same torques as another zero does%s: %s.",
         turn_deg, t->open_turn_error_deg, t->turn_is_of_dq ? "i_d and i_q" : "the angle of the logs",
         t->turn_is_of_dq ? ", and --angle-offset turns the angle of the logs and not their i_d and "
                            "i_q: if a zero is off, it is that of the drive"
                          : "",
-        t->turn_is_of_dq ? "Phase currents" : "Runs");
+        cli_tune_turn_told_by(t));
 }
 
 /* A fundamental that is turned is no other back-EMF: the angle has another zero, if no saliency does as well.
@@ -375,6 +384,7 @@ static void say_zero_or_saliency(cli_tuning *t)
             "another direction does was not measured. The mean torque of the table is that of the "
             "model alone.",
             fabs(angle_deg));
+    if (cli_tune_has_zero_of_voltages(t)) return; /* the angle of the currents is what it is */
     for (size_t k = 0; k < t->diagnosis.findings && angle_deg != 0.0; ++k) {
         const hci_effect *e = effect_of(t, &t->diagnosis.finding[k]);
         const hci_effect_term *x = mean_by_current(e);
@@ -430,7 +440,7 @@ static size_t sum_cogging(const cli_tuning *t, order_sum sum[MOST_ORDERS])
 /* Times its standard error, beyond which an order is more than chance. */
 #define SURE 3.0
 
-/* Order 1 of a current that balances the cogging torque is most likely the zero of its sensors. */
+/* Order 1 of a current that balances the cogging torque may be the zero of its sensors. */
 static void say_offset(cli_tuning *t, const order_sum *sum, size_t count)
 {
     for (size_t k = 0; k < count; ++k) {
@@ -439,10 +449,12 @@ static void say_offset(cli_tuning *t, const order_sum *sum, size_t count)
             continue;
         hci_tuning_say(
             &t->tuning, HCI_TUNING_UNKNOWN,
-            "Whether order 1 is of the machine: it is most likely the offset of the current sensors, "
-            "%.2g A of i_q, which makes order 1 whatever the load. The table takes it away as it is, "
-            "with these sensors. Where they are nulled, or in another drive, it would add %.2g N·m: "
-            "null them first and record again.",
+            "Whether order 1 is of the machine: an offset of the current sensors, %.2g A of i_q, makes order "
+            "1 "
+            "whatever the load, and magnets or teeth that are not alike make it too; these logs do not tell "
+            "which. The table takes it away as it is, with these sensors. Where they are nulled, or in "
+            "another "
+            "drive, it would add %.2g N·m that were the offset's: null them first and record again.",
             amplitude_Nm / t->reading.run.torque_constant_Nm_per_A, amplitude_Nm);
     }
 }

@@ -66,21 +66,24 @@ static void say_next_on_machine(cli_tuning *t)
             "--runs LIST and what is known in MACHINE/effects.csv.",
             t->diagnosis.further_work, t->runs.count > 1 ? ", with fewer logs" : "");
     else if (!has_sensor(t))
-        hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
-                       "On the same bench: the same slow turn forward and back with the table in the drive "
-                       "shows what is left of the cogging torque in what the speed still varies by, and in "
-                       "i_q less the i_q of the table; i_q as it is measured has the table in it, and looks "
-                       "as before. Spins at two other speeds, each in both directions, tell "
-                       "friction.%s",
-                       has_load(t) ? " The torque per ampere takes a torque sensor, or voltages of the open "
-                                     "machine that another one turns."
-                                   : " Against a brake the same turn forward and back tells the harmonics of "
-                                     "the back-EMF too; the torque per ampere takes a torque sensor, or "
-                                     "voltages of the open machine that another one turns.");
+        hci_tuning_say(
+            &t->tuning, HCI_TUNING_NEXT,
+            "On the same bench: play the table and make the same slow turn forward and back. What the "
+            "control adds to the i_q of the table (i_q less the i_q of the table) is what is "
+            "left of the cogging torque, and the speed varies less; i_q as it is measured has the "
+            "table in it, and looks as before. Spins at two other speeds, each in both directions, "
+            "tell friction.%s%s",
+            has_load(t) ? ""
+                        : " Against a brake the same turn forward and back tells the harmonics of "
+                          "the back-EMF too.",
+            t->has_emf ? ""
+                       : " The torque per ampere takes a torque sensor, or voltages of the open "
+                         "machine that another one turns.");
     else if (loads_of(t) >= ENOUGH_LOADS && t->diagnosis.verdict >= HCI_DIAGNOSIS_PARTLY)
-        hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
-                       "Not more of the same: as long as something in these recordings is not explained, the "
-                       "ripple on the machine is not known.");
+        hci_tuning_say(
+            &t->tuning, HCI_TUNING_NEXT,
+            "Recordings at the same currents and speeds do not help: as long as something in these is "
+            "not explained, the ripple on the machine is not known.");
     else
         hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
                        "To know the ripple on the machine: three recordings or more under load, up to the "

@@ -1,10 +1,12 @@
 #include "cli/tune/words/tune_caveats.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "cli/tune/tune_commands.h"
 #include "cli/tune/tune_facts.h"
+#include "cli/tune/tune_known.h"
 #include "cli/tune/tune_sheet.h"
 #include "cli/tune/tune_size.h"
 #include "cli/tune/tune_suspect.h"
@@ -42,9 +44,10 @@ static void append_of_logs(cli_tuning *t)
     if (t->once_a_turn_Nm > 0.0 && t->is_solved)
         cli_tune_caveat(
             t,
-            "%.3g N·m of the ripple come once or twice a turn, and a load on the shaft makes that as well "
-            "as the "
-            "motor: without that load the table adds them",
+            "%.3g N·m of the ripple come once or twice a turn, and a load on the shaft makes that as well as "
+            "the "
+            "motor, as a weight that is out of balance does: take the load off and record again, since the "
+            "table adds that ripple where the load is not there",
             t->once_a_turn_Nm);
     if (cli_tune_clipped(t) > 0 && t->is_solved)
         cli_tune_caveat(t, "Currents in %zu of %zu logs are clipped, and what they tell is too small",
@@ -97,32 +100,46 @@ static double offsets_Nm(const cli_tuning *t)
     return hypot(i.alpha, i.beta) * t->reading.run.torque_constant_Nm_per_A;
 }
 
+/* What else makes another torque per ampere under load, and what tells it, as far as the logs do not: a
+ * reluctance makes none without an i_d, and iron would make less the larger the current is. "": nothing. */
+static void say_of_load(const cli_tuning *t, bool is_less, char effect[64], const char **told_by)
+{
+    const bool is_told = is_less ? cli_tune_load_sizes(t) >= 3 : cli_tune_has_load_along_q(t);
+    snprintf(effect, 64, "%s",
+             is_told   ? ""
+             : is_less ? ", or iron that saturates"
+                       : ", or a reluctance torque where an i_d flows");
+    *told_by = is_told   ? ""
+               : is_less ? "loads at three currents tell the iron, which takes more the larger they are"
+                         : "a load at i_d = 0 tells the reluctance";
+}
+
 /* Torque is back-EMF times current: a sensor of the torque does not tell a share of the one from one of the
  * other, nor from one of its own or of the iron. */
 static void append_of_common_gain(cli_tuning *t, double gain, double other)
 {
     const bool is_less = other < 0.0;
-    const char *effect = is_less ? "iron that saturates" : "a reluctance torque where an i_d flows",
-               *told_by = is_less
-                              ? "loads at three currents tell the iron, which takes more the larger they are"
-                              : "a load at i_d = 0 tells the reluctance";
+    const char *told_by;
+    char effect[64];
+    say_of_load(t, is_less, effect, &told_by);
     if (t->has_emf)
         cli_tune_caveat(
             t,
             "%.2g %% are common to the gains of all three currents, and may be the torque sensor's "
             "instead, which "
-            "reads %.2g %% too %s then, or magnets that are %s under load than beside the voltages, or %s: "
+            "reads %.2g %% too %s then, or magnets that are %s under load than beside the voltages%s: "
             "the back-EMF is from voltages of these logs, and nothing in them "
-            "tells these apart; %s",
+            "tells these apart%s%s",
             100.0 * fabs(gain), 100.0 * fabs(other), is_less ? "little" : "much",
-            is_less ? "warmer" : "colder", effect, told_by);
+            is_less ? "warmer" : "colder", effect, *told_by ? "; " : "", told_by);
     else
         cli_tune_caveat(
             t,
             "%.2g %% are common to the gains of all three currents, and may be the back-EMF's instead, which "
-            "is %.2g %% %s then, or the torque sensor's, or %s: a torque sensor does not tell these apart; "
-            "voltages of the open machine tell the back-EMF, and %s",
-            100.0 * fabs(gain), 100.0 * fabs(other), is_less ? "smaller" : "larger", effect, told_by);
+            "is %.2g %% %s then, or the torque sensor's%s: a torque sensor does not tell these apart; "
+            "voltages of the open machine tell the back-EMF%s%s",
+            100.0 * fabs(gain), 100.0 * fabs(other), is_less ? "smaller" : "larger", effect,
+            *told_by ? ", and " : "", told_by);
 }
 
 static void append_of_gain(cli_tuning *t)
@@ -193,11 +210,14 @@ static void append_of_zero(cli_tuning *t)
     if (fabs(t->open_turn_deg) > 0.0 && t->is_solved)
         cli_tune_caveat(
             t,
-            "The back-EMF is found turned by %.1f ± %.1f degrees%s, which a saliency with its "
-            "saturation may do as well as another zero: %s with i_d of both signs at two currents, or "
-            "voltages of the open machine, tell them apart",
+            cli_tune_has_zero_of_voltages(t)
+                ? "Under load the back-EMF is found turned by %.1f ± %.1f degrees%s from where its voltages "
+                  "are, which "
+                  "stands for a saliency with its saturation: %s"
+                : "The back-EMF is found turned by %.1f ± %.1f degrees%s, which a saliency with its "
+                  "saturation may do as well as another zero: %s",
             t->open_turn_deg, t->open_turn_error_deg, t->turn_is_of_dq ? " against i_d and i_q" : "",
-            t->turn_is_of_dq ? "phase currents" : "runs");
+            cli_tune_turn_told_by(t));
     if (fabs(t->turned_deg) > 0.0 && t->is_solved)
         cli_tune_caveat(
             t,

@@ -5,6 +5,7 @@
 
 #include "cli/tune/tune_cover.h"
 #include "cli/tune/tune_facts.h"
+#include "cli/tune/tune_known.h"
 #include "cli/tune/tune_options.h"
 
 static void say_unknown_zero(cli_tuning *t)
@@ -13,10 +14,9 @@ static void say_unknown_zero(cli_tuning *t)
         &t->tuning, HCI_TUNING_UNKNOWN,
         "Where the electrical zero is: the logs have the angle of an encoder, whose zero is "
         "taken for that of the back-EMF of phase a; i_d and i_q, v_d and v_q, turned by the same angle, do "
-        "not tell it. The angle of the table is that of the logs, and its header says so. The dq table "
-        "answers cogging torque at the "
-        "right angle of the encoder whatever the zero, as long as the drive's own angle makes "
-        "the phase currents; harmonics of the back-EMF and tables of phase currents need it "
+        "not tell it. The angle of the table is that of the logs, and its header says so. The dq table takes "
+        "cogging torque away whatever the zero, as long as the drive makes its phase currents by its own "
+        "angle; harmonics of the back-EMF, and tables of phase currents, need the zero "
         "(docs/tutorials/zero.md).");
 }
 
@@ -159,9 +159,13 @@ static void say_inertia_limit(cli_tuning *t)
         "what turns with it on, a tenth or more of the orders found is what accelerates and no "
         "torque of the motor.",
         least_kgm2);
-    hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
-                   "Give --inertia of the rotor with what turns with it, or the same slow turn without the "
-                   "load too, which tells it.");
+    hci_tuning_say(
+        &t->tuning, HCI_TUNING_NEXT,
+        cli_tune_has_free_turn(t)
+            ? "Give --inertia of the rotor with what turns with it: the turn without the load is too "
+              "slow to tell it, and one at two or three times the speed does."
+            : "Give --inertia of the rotor with what turns with it, or the same slow turn without "
+              "the load too, which tells it.");
 }
 
 static void say_inertia(cli_tuning *t)

@@ -5,6 +5,7 @@
 
 #include "cli/tune/tune_cover.h"
 #include "cli/tune/tune_facts.h"
+#include "cli/tune/tune_known.h"
 #include "cli/tune/tune_suspect.h"
 
 /* Of the torque per ampere, that sheets are off by and torque sensors, too, and that is not spoken of. */
@@ -32,19 +33,46 @@ static void append_of_scale(cli_tuning *t)
 {
     const double share = found_above_sheet(t), percent = 100.0 * fabs(share);
     const bool is_more = share > 0.0;
+    const bool is_told = is_more ? cli_tune_has_load_along_q(t) : cli_tune_load_sizes(t) >= 3;
     if (t->is_solved && !t->has_emf && fabs(share) > NEAR_SHEET && percent < 100.0)
         cli_tune_caveat(
             t,
-            "The torque per ampere is %.2g %% %s than %s makes: %s magnets, %s, or a gain of the torque "
+            "The torque per ampere is %.2g %% %s than %s makes: %s magnets%s, or a gain of the torque "
             "sensor "
             "(or of those of the currents), which would make mean torque and ripple as much %s than said. "
-            "Voltages of the open machine tell the magnets, and %s",
+            "Voltages of the open machine tell the magnets%s",
             percent, is_more ? "more" : "less", cli_tune_constant_option(t),
             is_more ? "stronger or colder" : "weaker or warmer",
-            is_more ? "a reluctance torque where an i_d flows" : "iron that saturates",
+            is_told   ? ""
+            : is_more ? ", a reluctance torque where an i_d flows"
+                      : ", iron that saturates",
             is_more ? "smaller" : "larger",
-            is_more ? "a load at i_d = 0 the reluctance"
-                    : "loads at three currents the iron, which takes more the larger they are");
+            is_told   ? ""
+            : is_more ? ", and a load at i_d = 0 the reluctance"
+                      : ", and loads at three currents the iron, which takes more the larger they are");
+}
+
+/* Whether all that is known of the torque is a current, of which a constant of the sheet makes N·m. */
+static bool is_of_current(const cli_tuning *t)
+{
+    bool is_any = false;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        if (t->runs.run[k].torque_source == HCI_TORQUE_MEASURED) return false;
+        is_any = is_any || t->runs.run[k].torque_source == HCI_TORQUE_HOLDING;
+    }
+    return is_any && !t->has_emf;
+}
+
+static void append_of_constant(cli_tuning *t)
+{
+    if (t->is_solved && is_of_current(t))
+        cli_tune_caveat(
+            t,
+            "Every torque here is a current times the %.3g N·m/A of %s: nothing in these logs tells it, "
+            "and "
+            "where it is ten times too large, so are they all. The currents that take the cogging torque "
+            "away are the same whatever it is",
+            t->reading.run.torque_constant_Nm_per_A, cli_tune_constant_option(t));
 }
 
 /* What the recordings do not tell of the torque. */
@@ -65,6 +93,7 @@ static void append_of_torque(cli_tuning *t)
         cli_tune_caveat(t, "Orders above %.3g were not looked at, since the samples lie too far apart",
                         t->highest_order);
     append_of_scale(t);
+    append_of_constant(t);
     if (t->mains_Hz > 0.0 && t->is_solved)
         cli_tune_caveat(t,
                         "Order %s is %.0f Hz at this one speed, as hum of the mains is: another speed tells",

@@ -105,8 +105,8 @@ static void remark_cogging(const hci_waveform_task *t)
     if (w->turns_forward + w->turns_backward > 0 && isnan(w->friction_Nm))
         hci_note_add(
             &t->result->remark,
-            "whole turns of one direction only: friction is in the mean, and what of it follows the angle "
-            "is in the orders");
+            "only whole turns in one direction are used: friction is in their mean, and one that varies with "
+            "the angle is among the orders");
 }
 
 static hci_status cogging_of(const hci_waveform_task *t, double *value, double *angle)

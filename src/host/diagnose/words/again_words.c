@@ -15,6 +15,13 @@ const char *hci_again_change_name(hci_again_change change)
     return NAMES[change];
 }
 
+static bool has_kept_promise(const hci_again *a)
+{
+    for (size_t k = 0; k < a->runs && a->solved.folder[0]; ++k)
+        if (a->run[k].played.promise == HCI_PROMISE_KEPT) return true;
+    return false;
+}
+
 static void say_prediction(const hci_words *w, const hci_again *a)
 {
     hci_words_say(w,
@@ -25,9 +32,12 @@ static void say_prediction(const hci_words *w, const hci_again *a)
         hci_words_say(w, " No bound was stated last time of that error.");
     else
         hci_words_say(w,
-                      " It was within what had been stated (%.3g N·m, 95 %%) in %zu of %zu: what was stated "
-                      "of the model %s.",
-                      a->bound_Nm, a->kept, a->bounded, a->kept == a->bounded ? "holds" : "does not hold");
+                      " It was within what had been stated of the torque, mean and ripple together, whatever "
+                      "current flows (%.3g N·m, 95 %%) in %zu of %zu: what was stated of the model %s%s.",
+                      a->bound_Nm, a->kept, a->bounded, a->kept == a->bounded ? "holds" : "does not hold",
+                      a->kept < a->bounded && has_kept_promise(a)
+                          ? "; the promise of the ripple is another one, and was kept"
+                          : "");
 }
 
 static void say_now(const hci_words *w, const hci_again *a)

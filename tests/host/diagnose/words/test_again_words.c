@@ -64,8 +64,14 @@ static void test_the_bound(void)
     a.bounded = 2;
     a.kept = 1;
     TEST_ASSERT_TRUE(
-        says(" It was within what had been stated (0.3 N·m, 95 %) in 1 of 2: what was stated of the model "
-             "does not hold."));
+        says(" It was within what had been stated of the torque, mean and ripple together, whatever current "
+             "flows (0.3 N·m, 95 %) in 1 of 2: what was stated of the model does not hold."));
+    run[1].played.promise = HCI_PROMISE_KEPT;
+    TEST_ASSERT_TRUE(says("does not hold."));
+    strcpy(a.solved.folder, "out");
+    TEST_ASSERT_TRUE(says("does not hold; the promise of the ripple is another one, and was kept."));
+    run[1].played.promise = HCI_PROMISE_NOT_KEPT;
+    TEST_ASSERT_TRUE(says("does not hold."));
     a.kept = 2;
     TEST_ASSERT_TRUE(says("in 2 of 2: what was stated of the model holds."));
 }
