@@ -192,6 +192,28 @@ static size_t as_good_near(const comparison *c, double best, size_t at)
     return at;
 }
 
+/* What is left at the lowest point of a parabola through a shift and its neighbours; 2: it is no lowest. */
+static double lowest_at(const comparison *c, size_t at)
+{
+    const size_t all = GRID * c->turns;
+    const double here = try_shift(c, at, false), on = try_shift(c, (at + 1) % all, false),
+                 back = try_shift(c, (at + all - 1) % all, false), bend = on - 2.0 * here + back;
+    if (here > on || here > back) return 2.0;
+    return bend > 0.0 ? here - 0.125 * (on - back) * (on - back) / bend : here;
+}
+
+/* i_d and i_q repeat six times in a turn: of places that are as good the one nearest to none. */
+static size_t nearest_place(const comparison *c, size_t at)
+{
+    const size_t all = GRID * c->turns;
+    const double most = AS_GOOD * lowest_at(c, at) + 1e-9;
+    for (size_t k = 0; k <= GRID / 2; ++k) {
+        if (lowest_at(c, k) < most) return k;
+        if (lowest_at(c, (all - k) % all) < most) return (all - k) % all;
+    }
+    return at;
+}
+
 /* The best shift, and the best in another electrical turn. */
 static void search(const comparison *c, hci_table_rotation *x)
 {
@@ -201,6 +223,7 @@ static void search(const comparison *c, hci_table_rotation *x)
     x->backwards = at >= all;
     at %= all;
     if (!x->backwards) at = as_good_near(c, best, at);
+    if (c->in_frame) at = nearest_place(c, at);
     for (size_t turn = 1; turn < c->turns; ++turn)
         for (size_t k = 0; k < 33; ++k)
             elsewhere = fmin(elsewhere, try_shift(c, (at + turn * GRID + k + all - 16) % all, x->backwards));

@@ -127,6 +127,18 @@ static void test_the_index_of_a_table_in_the_frame(void)
     }
 }
 
+/* i_d and i_q repeat six times in a turn: of places that are as good the nearest is said. */
+static void test_the_nearest_of_six_places(void)
+{
+    for (int k = -4; k <= 4; ++k) {
+        const double ahead = 0.12 * k;
+        play_index(ahead, 0.05);
+        const hci_table_rotation x = compare();
+        TEST_ASSERT_TRUE(x.is_rotated == (k != 0));
+        TEST_ASSERT_DOUBLE_WITHIN(3e-3, ahead, x.rotation_rad);
+    }
+}
+
 /* A table whose currents are all 0 is in no recording, and no share of it either. */
 static void test_a_table_of_nothing_is_not_found(void)
 {
@@ -255,6 +267,7 @@ int main(void)
     RUN_TEST(test_the_error_is_that_of_the_noise);
     RUN_TEST(test_backwards);
     RUN_TEST(test_the_index_of_a_table_in_the_frame);
+    RUN_TEST(test_the_nearest_of_six_places);
     RUN_TEST(test_a_table_of_nothing_is_not_found);
     RUN_TEST(test_what_mends_nothing_is_no_rotation);
     RUN_TEST(test_which_of_the_turns);
