@@ -77,6 +77,13 @@ static int unknown_command(const char *word)
     for (size_t k = 0; k < COMMAND_COUNT; ++k)
         names[k] = COMMANDS[k]->name;
     nearest = hci_nearest(word, names);
+    if (word[0] == '-')
+        return cli_fail(
+            hci_note_set(&note, HCI_ERROR_ARGUMENT,
+                         "found the option `%s` in place of a command, expected one first, such as "
+                         "hci-solve tune LOG %s ...; hci-solve --help lists the commands",
+                         word, word),
+            &note);
     return cli_fail(hci_note_set(&note, HCI_ERROR_ARGUMENT,
                                  "unknown command `%s`%s%s%s hci-solve --help lists the commands, hci-solve "
                                  "help COMMAND tells of one",

@@ -8,6 +8,7 @@
 
 #include "cli/tune/tune_commands.h"
 #include "cli/tune/tune_facts.h"
+#include "cli/tune/tune_known.h"
 #include "cli/tune/tune_options.h"
 #include "cli/tune/tune_read.h"
 #include "cli/tune/tune_sheet.h"
@@ -189,11 +190,15 @@ static void judge_number(cli_tuning *t, const hci_check *c)
     char number[512];
     if (!may_be_of_sheet(c)) return;
     t->torque_to_sheet = torque_ratio(c);
-    if (!cli_tune_say_meant_strength(t, number, sizeof number)) return;
+    if (!cli_tune_say_meant_strength(t, number, sizeof number)) {
+        t->torque_to_sheet = 0.0; /* judge_sheet has the other slips before it */
+        return;
+    }
     t->has_slip = t->slip_is_of_sheet = true;
     append(t, "%c%s. Else ", toupper(number[0]), number + 1);
     append_units(t, c);
-    append(t, "the torque is of the other side of a gear, or of another motor. Nothing was solved; voltages of "
+    append(t,
+           "the torque is of the other side of a gear, or of another motor. Nothing was solved; voltages of "
            "the open machine tell the number");
 }
 
@@ -323,12 +328,21 @@ static void judge_torque(cli_tuning *t, const hci_check *c, const hci_check_evid
     if (t->has_slip || e->state == HCI_CHECK_AGREES || strcmp(e->name, "torque_size") != 0) return;
     if (fabs(log(fabs(e->declared / e->expected))) < log(CLI_TUNE_ANOTHER_TORQUE)) return;
     t->has_slip = true;
-    snprintf(t->slip, sizeof t->slip,
-             "The torque is %.3g times what the currents make with the constant of the sheet%s (of the other "
-             "side of a gear, in another unit, or of another motor, or %s is another number or of another "
-             "unit",
-             e->declared / e->expected, unit_of_torque(e->declared / e->expected),
-             cli_tune_constant_option(t));
+    if (cli_tune_lies_along_d(t)) {
+        t->slip_is_of_frame = true;
+        append(
+            t,
+            "The currents of the loads lie along i_d and not along i_q, where they make no torque: the two "
+            "columns are exchanged, or the angle of the drive is a quarter of an electrical turn off, so "
+            "nothing was solved: --column 'iq_A=COLUMN' --column 'id_A=COLUMN' say which is which");
+        return;
+    }
+    snprintf(
+        t->slip, sizeof t->slip,
+        "The torque is %.3g times what the currents make with the constant of the sheet%s (of the other "
+        "side of a gear, in another unit, a force without its arm, or of another motor, or %s is another "
+        "number or of another unit",
+        e->declared / e->expected, unit_of_torque(e->declared / e->expected), cli_tune_constant_option(t));
     for (size_t k = 0; k < c->findings; ++k)
         if (!is_excluded(t, c->finding[k].slip))
             append(t, ", or %s, by %.2g %%", c->finding[k].words,

@@ -51,6 +51,21 @@ bool cli_tune_has_both_id(const cli_tuning *t)
     return has[0] && has[1];
 }
 
+#define ALONG_D 0.1 /* i_q to i_d */
+
+bool cli_tune_lies_along_d(const cli_tuning *t)
+{
+    size_t loads = 0;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        if (!is_load(t, r)) continue;
+        const hci_dq i = mean_of(r);
+        if (r->has_sum || r->computed_phase > 0 || !(fabs(i.q) < ALONG_D * fabs(i.d))) return false;
+        ++loads;
+    }
+    return loads > 0;
+}
+
 const char *cli_tune_turn_told_by(const cli_tuning *t)
 {
     const bool has_both = !t->turn_is_of_dq && cli_tune_has_both_id(t);

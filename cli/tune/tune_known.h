@@ -19,6 +19,10 @@ bool cli_tune_has_both_id(const cli_tuning *tune);
  * not among the logs; a clause. O(samples). */
 const char *cli_tune_turn_told_by(const cli_tuning *tune);
 
+/* Whether all loads with a torque sensor have an i_d ten times their i_q and more, and no phase currents.
+ * O(samples). */
+bool cli_tune_lies_along_d(const cli_tuning *tune);
+
 /* How many loads with a torque sensor there are, whose currents differ by a fifth and more. O(samples +
  * recordings²). */
 size_t cli_tune_load_sizes(const cli_tuning *tune);

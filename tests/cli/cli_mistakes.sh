@@ -142,6 +142,12 @@ run 3 simulate m s.csv; says 's.csv:3: .*`prescribed_sped`.*did you mean `prescr
 printf 'name,value,unit\nduration,40,ms\nfrobnicate,1,\n' >s.csv
 run 3 simulate m s.csv; says 'found `frobnicate`, expected a name that is known here; docs/simulate.md lists all'
 
+# ---- a number for a file, an option before the command, a name with blanks that is not quoted
+
+run 3 solve m --target 2.46 --auto; says 'target: found the number 2.46, expected a file of orders; for a constant torque one with the two lines order,amplitude_Nm,phase_rad and 0,2.46,0'
+run 2 --pole-pairs 2 tune r.csv; says 'found the option `--pole-pairs` in place of a command, expected one first, such as hci-solve tune LOG --pole-pairs'
+run 2 tune r.csv --pole-pairs 2 --kv 39 --column torque -o unquoted; says "quote a name with blanks: --column 'torque_Nm=Torque"
+
 # ---- a machine among logs, and why a motor failed
 
 log $names

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "hci/host/base/number.h"
 #include "hci/host/csv/csv.h"
 #include "host/base/memory.h"
 #include "host/machine/spectrum_table.h"
@@ -68,9 +69,20 @@ hci_status hci_target_read_orders(const char *path, hci_order_base base, int pol
                                   hci_note *remark, hci_note *note)
 {
     hci_csv *csv;
-    hci_status status = hci_csv_read(path, &csv, note);
+    double number;
+    hci_note why = {{0}};
+    hci_status status = hci_csv_read(path, &csv, &why);
     memset(target, 0, sizeof *target);
-    if (status) return status;
+    if (status == HCI_ERROR_INPUT && hci_number_parse(path, &number))
+        return hci_note_set(
+            note, status,
+            "target: found the number %s, expected a file of orders; for a constant torque one "
+            "with the two lines order,amplitude_Nm,phase_rad and 0,%s,0",
+            path, path);
+    if (status) {
+        *note = why;
+        return status;
+    }
     hci_csv_orders_of(csv, pole_pairs, base);
     status = target_from_csv(csv, target, note);
     if (!status) hci_spectrum_tell_degrees(csv, remark);

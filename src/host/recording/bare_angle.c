@@ -248,25 +248,43 @@ static hci_status stands_error(const hci_csv *csv, size_t column, bool is_driven
     return hci_csv_fault_note(csv, &fault, note);
 }
 
-/* The column that has another unit than it says, by the way of the angle to that of the speed. */
-static const char *other_unit(double ratio, hci_run_column *which)
+/* The column that has another unit than it says, by the way of the angle to that of the speed. speed: what a
+ * 1 of it is read as, rad/s. */
+static const char *other_unit(double ratio, double speed, hci_run_column *which)
 {
     static const struct {
         double ratio;
-        hci_run_column which;
         const char *name;
-    } UNITS[] = {{1e-3, HCI_RUN_TIME, "time_ms"},
-                 {1e-6, HCI_RUN_TIME, "time_us"},
-                 {1e3, HCI_RUN_TIME, "time_s"},
-                 {1e6, HCI_RUN_TIME, "time_s"},
-                 {30.0 / HCI_PI, HCI_RUN_SPEED, "speed_rad_per_s"},
-                 {HCI_PI / 30.0, HCI_RUN_SPEED, "speed_rpm"}};
-    for (size_t k = 0; k < sizeof UNITS / sizeof *UNITS; ++k)
-        if (fabs(ratio / UNITS[k].ratio - 1.0) < OF_A_UNIT) {
-            *which = UNITS[k].which;
-            return UNITS[k].name;
-        }
-    return NULL;
+    } TIMES[] = {{1e-3, "time_ms"}, {1e-6, "time_us"}, {1e3, "time_s"}, {1e6, "time_s"}};
+    const char *unit;
+    *which = HCI_RUN_TIME;
+    for (size_t k = 0; k < sizeof TIMES / sizeof *TIMES; ++k)
+        if (fabs(ratio / TIMES[k].ratio - 1.0) < OF_A_UNIT) return TIMES[k].name;
+    *which = HCI_RUN_SPEED;
+    return speed_by_way(ratio, speed, &unit);
+}
+
+/* Of its steps, that a time goes back where the rows are in its order. */
+#define BACK 0.05
+
+static hci_status order_error(const hci_csv *csv, const double *time_s, bool *is_known, hci_note *note)
+{
+    const size_t n = hci_csv_rows(csv);
+    size_t back = 0;
+    char found[96];
+    for (size_t k = 1; k < n; ++k)
+        back += time_s[k] < time_s[k - 1];
+    *is_known = (double)back > BACK * (double)n;
+    if (!*is_known) return HCI_OK;
+    snprintf(found, sizeof found, "a time that goes back in %zu of %zu rows", back, n);
+    const size_t column = hci_column_find(csv, name(HCI_RUN_TIME)).column;
+    const hci_csv_fault fault = {.line = hci_csv_record_line(csv, 0),
+                                 .column = column,
+                                 .name = hci_csv_name(csv, column),
+                                 .found = found,
+                                 .expected = "rows in the order of the time",
+                                 .remedy = "sort them by this column, or give the log as it was written"};
+    return hci_csv_fault_note(csv, &fault, note);
 }
 
 /* x: time, speed and angle, in their canonical units as the file says them. */
@@ -279,7 +297,8 @@ static hci_status unit_error(const hci_csv *csv, size_t column, int pole_pairs, 
     const char *as = NULL, *other = hci_csv_name(csv, column);
     if (decide(ratio_of(x, n, 360.0), pole_pairs, &which))
         as = which == HCI_RUN_THETA_M ? "theta_m_deg" : "theta_e_deg";
-    else if ((as = other_unit(ratio_of_ways(x, n), &which)) != NULL)
+    else if ((as = other_unit(ratio_of_ways(x, n), hci_column_find(csv, name(HCI_RUN_SPEED)).factor,
+                              &which)) != NULL)
         other = hci_csv_name(csv, hci_column_find(csv, name(which)).column);
     if (as == NULL) return HCI_OK;
     snprintf(remedy, sizeof remedy, "the three agree where `%.60s` is in another unit: --column '%s=%.60s'",
@@ -299,6 +318,9 @@ static hci_status explain(hci_csv *csv, size_t column, int pole_pairs, double *x
     bool is_read;
     const hci_status status = read_three(csv, column, x, &is_read, note);
     if (status || !is_read) return status;
+    bool is_disordered;
+    const hci_status disordered = order_error(csv, x + TIME * n, &is_disordered, note);
+    if (is_disordered) return disordered;
     return stands(x + ANGLE * n, n) ? stands_error(csv, column, driven_rad(x, n) > 1.0, note)
                                     : unit_error(csv, column, pole_pairs, x, note);
 }

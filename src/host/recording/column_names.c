@@ -298,8 +298,11 @@ hci_status hci_column_names_add(hci_column_names *names, const char *text, hci_n
     const char *equals = strchr(text, '=');
     snprintf(from, sizeof from, "--column %s", text);
     if (equals == NULL || equals == text || equals[1] == '\0')
-        return hci_note_set(note, HCI_ERROR_ARGUMENT,
-                            "--column: found `%.200s`, expected NAME=COLUMN such as torque_Nm=AI3", text);
+        return hci_note_set(
+            note, HCI_ERROR_ARGUMENT,
+            "--column: found `%.200s`, expected NAME=COLUMN such as torque_Nm=AI3; quote a name with "
+            "blanks: --column 'torque_Nm=Torque [Nm]'",
+            text);
     size_t length = (size_t)(equals - text);
     while (length > 1 && text[length - 1] == ' ')
         --length;
@@ -476,12 +479,29 @@ static hci_status counts_error(const hci_csv *csv, const hci_column_name *item, 
         item->column, item->column, of_turn, item->column);
 }
 
+/* "torque_Nm=cell_N*0.2": a number divides a column and does not multiply it. */
+static hci_status times_column(const hci_column_name *item, bool *is_times, hci_note *note)
+{
+    const char *star = strrchr(item->column, '*');
+    double number = 0.0;
+    char column[HCI_QUOTE_SIZE];
+    *is_times = star != NULL && hci_number_parse(star + 1, &number) && number != 0.0;
+    if (!*is_times) return HCI_OK;
+    snprintf(column, sizeof column, "%.*s", (int)(star - item->column), item->column);
+    return hci_note_set(note, HCI_ERROR_INPUT,
+                        "%.300s: found a column times %s, expected one divided by a number: %s=%s/%.10g",
+                        item->from, star + 1, item->name, column, 1.0 / number);
+}
+
 static hci_status no_such_column(const hci_csv *csv, const hci_column_name *item, hci_note *note)
 {
     enum { MOST = 64 };
     const char *names[MOST + 1] = {NULL};
     char path[HCI_QUOTE_PATH_SIZE], quoted[HCI_QUOTE_SIZE], other[HCI_QUOTE_SIZE], list[300] = "";
     size_t used = 0;
+    bool is_times;
+    const hci_status times = times_column(item, &is_times, note);
+    if (is_times) return times;
     for (size_t k = 0; k < hci_csv_columns(csv) && k < MOST; ++k)
         names[k] = hci_csv_name(csv, k);
     const char *nearest = hci_nearest(item->column, names);

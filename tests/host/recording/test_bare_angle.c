@@ -178,7 +178,8 @@ static void is_explained(const char *speed_name, const char *angle_name, const c
 {
     memset(&note, 0, sizeof note);
     TEST_ASSERT_EQUAL(HCI_OK, decide(speed_name, angle_name, N, 4));
-    TEST_ASSERT_EQUAL(words ? HCI_ERROR_INPUT : HCI_OK, hci_bare_angle_explain(csv, 4, &note));
+    TEST_ASSERT_EQUAL_MESSAGE(words ? HCI_ERROR_INPUT : HCI_OK, hci_bare_angle_explain(csv, 4, &note),
+                              words ? words : "");
     if (words) text_has(words, note.text);
 }
 
@@ -192,12 +193,19 @@ static void test_why_not(void)
     is_explained("speed_rad_per_s", "theta [rad]", "--column 'theta_e_deg=theta [rad]'");
     move(1.0, 2.0 * PI, PI / 30.0, true);
     is_explained("speed_rad_per_s", "theta [rad]", "--column 'speed_rpm=speed_rad_per_s'");
-    move(1.0, 2.0 * PI, 30.0 / PI, false);
-    is_explained("speed_rad_per_s", "theta [rad]", "--column 'speed_rad_per_s=speed_rad_per_s'");
+    move(1.0, 2.0 * PI, 1.0, false);
+    is_explained("speed_rpm", "theta [rad]", "--column 'speed_rad_per_s=speed_rpm'");
     move(1.0, 2.0 * PI, 1.0, true);
     for (size_t k = 0; k < N; ++k)
         time_s[k] *= 1e3;
     is_explained("speed_rad_per_s", "theta [rad]", "--column 'time_ms=time_s'");
+    move(1.0, 2.0 * PI, PI / 180.0, true);
+    is_explained("speed_rpm", "theta [rad]", "--column 'speed_deg_per_s=speed_rpm'");
+    move(1.0, 2.0 * PI, 1.0, false);
+    for (size_t k = 0; k < N; ++k)
+        time_s[k] = 1e-3 * (double)((k * 37) % N);
+    is_explained("speed_rad_per_s", "theta [rad]",
+                 "expected rows in the order of the time; sort them by this");
     move(1.5, 2.0 * PI, 1.0, true);
     is_explained("speed_rad_per_s", "theta [rad]", NULL);
     move(1.0, 2.0 * PI, 1.0, true);
