@@ -106,8 +106,8 @@ size_t cli_tune_load_sizes(const cli_tuning *t)
 bool cli_tune_has_free_turn(const cli_tuning *t)
 {
     for (size_t k = 0; k < t->runs.count; ++k)
-        if (t->runs.run[k].torque_source == HCI_TORQUE_HOLDING &&
-            !hci_run_is_loaded(&t->runs.run[k], t->runs.run[k].pole_pairs))
+        if (t->runs.run[k].needs_inertia || (t->runs.run[k].torque_source == HCI_TORQUE_HOLDING &&
+                                             !hci_run_is_loaded(&t->runs.run[k], t->runs.run[k].pole_pairs)))
             return true;
     return false;
 }

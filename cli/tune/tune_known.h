@@ -27,7 +27,8 @@ bool cli_tune_lies_along_d(const cli_tuning *tune);
  * recordings²). */
 size_t cli_tune_load_sizes(const cli_tuning *tune);
 
-/* Whether one is a slow turn without a load, whose current is read as a holding test. O(samples). */
+/* Whether one is a slow turn without a load, whose current is read as a holding test, or would be with the
+ * inertia. O(samples). */
 bool cli_tune_has_free_turn(const cli_tuning *tune);
 
 #endif

@@ -95,6 +95,11 @@ static void test_a_turn_without_a_load(void)
 {
     record(HCI_TORQUE_MEASURED, 0.0, 0.1);
     TEST_ASSERT_FALSE(cli_tune_has_free_turn(&tune));
+    record(HCI_TORQUE_NONE, 0.0, 0.1);
+    TEST_ASSERT_FALSE(cli_tune_has_free_turn(&tune));
+    run[1].needs_inertia = true;
+    TEST_ASSERT_TRUE(cli_tune_has_free_turn(&tune));
+    run[1].needs_inertia = false;
     record(HCI_TORQUE_HOLDING, 0.0, 0.0);
     TEST_ASSERT_TRUE(cli_tune_has_free_turn(&tune));
 }

@@ -159,13 +159,12 @@ static void say_inertia_limit(cli_tuning *t)
         "what turns with it on, a tenth or more of the orders found is what accelerates and no "
         "torque of the motor.",
         least_kgm2);
-    hci_tuning_say(
-        &t->tuning, HCI_TUNING_NEXT,
-        cli_tune_has_free_turn(t)
-            ? "Give --inertia of the rotor with what turns with it: the turn without the load is too "
-              "slow to tell it, and one at two or three times the speed does."
-            : "Give --inertia of the rotor with what turns with it, or the same slow turn without "
-              "the load too, which tells it.");
+    hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
+                   cli_tune_has_free_turn(t)
+                       ? "Give --inertia of the rotor with what turns with it: the turn without a load "
+                         "that is among these logs does not tell it."
+                       : "Give --inertia of the rotor with what turns with it, or the same slow turn without "
+                         "the load too, which tells it.");
 }
 
 static void say_inertia(cli_tuning *t)
