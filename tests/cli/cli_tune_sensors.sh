@@ -68,8 +68,9 @@ check "a load at i_d = 0 is asked for beside three" [ "$(grep -c 'i_d = 0\|reluc
 for load in 0.3 0.6 1; do
     awk -F, -v OFS=, 'NR > 1 { $6 *= 0.94 } 1' "one$load.csv" >"less$load.csv"
 done
-run 0 tune open.csv less0.3.csv less0.6.csv less1.csv $motor -o less
-says '^  - The torque per ampere is (6|5\.[89]|6\.[01]) % less than --flux makes: weaker or warmer magnets, or a gain of the torque sensor .* larger than said\. Voltages of the open machine tell the magnets$'
+# one way round, a part of it may be of iron that saturates or brakes, which is said to be open
+run 1 tune open.csv less0.3.csv less0.6.csv less1.csv $motor -o less
+says '^  - The torque per ampere is (6|5\.[4-9]|6\.[01]) % less than --flux makes: weaker or warmer magnets, or a gain of the torque sensor .* larger than said\. Voltages of the open machine tell the magnets$'
 check "a sensor is named alone" [ "$(cat more/summary.json less/summary.json | grep -c 'torque sensor shows')" -eq 0 ]
 check "a scale where there is none" [ "$(grep -c 'torque per ampere is' off/summary.json)" -eq 0 ]
 
@@ -105,8 +106,8 @@ gained gainedb.csv 0 -1 2
 gained gained2.csv 2 1 3
 gained gained4.csv 4 1 4
 gains='--pole-pairs 5 --torque-constant 0.3 --slots 12 --rated-current 5'
-run 1 tune gained0.csv gainedb.csv gained4.csv $gains -o gained
-says 'The table hangs on what was found of the sensors, of which gains of the current sensors cannot be told .* where they read right, another torque is made'
+run 0 tune gained0.csv gainedb.csv gained4.csv $gains -o gained
+says 'have to be corrected before: divide i_a by 1\.009' 'The torque per ampere is 8\.[0-9]* % less than --torque-constant makes: .* a gain of the torque sensor \(or of those of the currents\), which would make mean torque and ripple as much larger'
 run 0 tune gained0.csv gainedb.csv gained2.csv gained4.csv $gains -o gained2
 says 'have to be corrected before: divide i_a by 1\.009'
 finish

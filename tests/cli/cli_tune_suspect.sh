@@ -266,7 +266,7 @@ zeroed() { # FILE A WAY SEED: 0.5 N·m too much
             printf \"%.6f,%.7f,%.5f,%.5f,%.5f,%.6f\n\", k / 1000, x, $2 * sin(4 * x) + 0.002 * (rand() - 0.5), $2 * sin(4 * x - turn / 3) + 0.002 * (rand() - 0.5), $2 * sin(4 * x + turn / 3) + 0.002 * (rand() - 0.5), torque } }" >"$1"
 }
 zeroed z1.csv 0 1 1; zeroed z2.csv 0 -1 2; zeroed z3.csv 2 1 3; zeroed z4.csv 2 -1 4
-run 1 tune z1.csv z2.csv z3.csv z4.csv --pole-pairs 4 --kv 18.38 -o zeroed
+run 0 tune z1.csv z2.csv z3.csv z4.csv --pole-pairs 4 --kv 18.38 -o zeroed
 says 'a torque without ripple of 0.9[0-9]* N·m: the largest mean torque of the'
 check "the zero is not said" grep -q 'less the zero of its sensor' zeroed/summary.json
 # a number of the sheet that was typed without a unit is more often wrong than a column that says its own: it is said first

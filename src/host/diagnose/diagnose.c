@@ -877,7 +877,7 @@ hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *decl
     const task all = {machine, declared, runs, options, NULL, NULL, NULL, 0.0};
     hci_status status = diagnose_runs(&all, diagnosis, note);
     if (!status) status = origin_fill(&all, diagnosis, note);
-    diagnosis->further_work = FURTHER * (options->work > 0.0 ? options->work : 1.0);
+    diagnosis->further_work = FURTHER * fmax(1.0, options->work);
     if (status) {
         hci_diagnosis_release(diagnosis);
         return status;
