@@ -9,7 +9,7 @@ cd "$source_dir" || exit 1
 run 0 simulate data/machine_a data/drive/driven.csv -q -o "$work/driven"
 recording=$work/driven/trajectory.csv
 run 0 harmonics "$recording" --quantity cogging --pole-pairs 2 -o "$work/table"
-says '^cogging torque: .*trajectory.csv, [6-8] orders$' 'mechanical' 'errors       from how the turns differ' 'one direction only'
+says '^cogging torque: .*trajectory.csv, [6-8] orders$' 'mechanical' 'errors       from how the turns differ' 'only whole turns in one direction are used'
 check "files: $(ls -A "$work/table")" [ "$(ls -A "$work/table" | tr "\n" " ")" = "cogging.csv cogging.svg " ]
 check "header" [ "$(head -n 1 "$work/table/cogging.csv")" = order,amplitude_Nm,phase_rad,std_error_Nm ]
 awk -F, '/^#/ || /^order/ { next }

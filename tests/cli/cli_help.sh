@@ -81,7 +81,7 @@ check "a mistyped command is answered with a page" [ "$(wc -l <"$work/stderr")" 
 wrong 'did you mean `simulate`\?' simulat
 wrong 'did you mean `simulate`\?' help simulat
 wrong 'unknown command `xyzzy`; hci-solve --help' xyzzy
-wrong 'unknown command `--bogus`' --bogus
+wrong 'found the option `--bogus` in place of a command, expected one first' --bogus
 wrong 'found 0 words, expected 1: MACHINE --target FILE; see hci-solve solve --help' solve
 wrong 'found 2 words, expected 1' solve data/machine_a data/machine_b --target $target
 wrong 'solve: found an empty word, expected MACHINE --target FILE; is a variable of the shell not set\?' solve "" --target $target

@@ -278,7 +278,7 @@ static void test_one_direction_knows_no_friction(void)
     find();
     TEST_ASSERT_TRUE(isnan(w.friction_Nm));
     TEST_ASSERT_DOUBLE_WITHIN(1e-3, -0.03, w.mean_Nm);
-    text_has("one direction only", w.remark.text);
+    text_has("only whole turns in one direction are used", w.remark.text);
 }
 
 /* The angle of an encoder that flickers by a count does not turn round at each sample. */

@@ -64,6 +64,23 @@ static void test_a_tenth_of_the_magnets_is_not(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.1, search.disbelieved.constant_share);
 }
 
+/* A mean that keeps its sign when i_q turns its own leaves by itself: the ripple of the same iron is no less
+ * likely for it. */
+static void test_a_mean_that_keeps_its_sign_leaves_alone(void)
+{
+    for (int k = 0; k < 2; ++k)
+        record(SAMPLES, &(point){60.0, k ? -9.0 : 9.0, 0.0, 0.0, 0.0});
+    search_start();
+    model_add("reluctance", "qq_cosine", NULL, 6.0);
+    model_add("reluctance", "dq_cosine", NULL, 0.0);
+    model.candidates.candidate[0].term[0].value = 1e-4;
+    model.candidates.candidate[1].term[0].value = 1e-3;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_keep_brakes(&search, &model, &note));
+    TEST_ASSERT_TRUE(model.candidates.candidate[0].in);
+    TEST_ASSERT_FALSE(model.candidates.candidate[1].in);
+    TEST_ASSERT_EQUAL_STRING("reluctance", search.disbelieved.type->name);
+}
+
 /* Of the declared torque per ampere: what a back-EMF that is less by a fifth leaves; of a machine that
  * declares none, all. */
 static void test_share_of_the_declared_torque(void)
@@ -313,6 +330,7 @@ int main(void)
     RUN_TEST(test_a_lag_of_more_than_a_turn_is_not);
     RUN_TEST(test_nor_beside_a_shaft_that_stands);
     RUN_TEST(test_nor_a_resonance_that_is_one);
+    RUN_TEST(test_a_mean_that_keeps_its_sign_leaves_alone);
     RUN_TEST(test_share_of_the_declared_torque);
     RUN_TEST(test_a_sensor_with_half_its_gain_is_not);
     RUN_TEST(test_a_friction_that_drives_is_not);
