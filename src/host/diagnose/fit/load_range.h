@@ -4,9 +4,10 @@
 
 #include "host/diagnose/reading/regression.h"
 
-/* Whether the mean currents (i_d, i_q) of a run in use lie outside of those of all others and of none, by more
- * than a tenth of the largest current: a power series in the currents, chosen where the others are, says nothing of
- * it. Runs whose currents vary, and direct ones, have no such place: false. O(runs · directions). */
+/* Whether the mean currents (i_d, i_q) of a run in use lie outside of those of all others and of none, by
+ * more than a tenth of the largest current: a power series in the currents, chosen where the others are, says
+ * nothing of it. Runs whose currents vary, and direct ones, have no such place: false. O(runs · directions).
+ */
 bool hci_run_is_beyond(const hci_regression *regression, size_t run);
 
 /* How many of so many runs are asked what others say of them: those that are not beyond; where too few would
