@@ -55,6 +55,18 @@ static void say_other_directions(cli_tuning *t)
         names);
 }
 
+/* A saliency of the sheet that loads along q hardly tell is one effect less to look for. */
+static void say_inductances(cli_tuning *t)
+{
+    const bool *given = t->arguments->given;
+    if (!t->is_own || given[TUNE_INDUCTANCE_D] || given[TUNE_INDUCTANCE_Q] || loads_of(t) == 0 ||
+        t->diagnosis.verdict < HCI_DIAGNOSIS_PARTLY)
+        return;
+    hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
+                   "Where the sheet has them, give --inductance-d and --inductance-q: of a machine whose two "
+                   "differ, the search for what is missing begins nearer to it.");
+}
+
 /* What the bench at hand can do first. */
 static void say_next_on_machine(cli_tuning *t)
 {
@@ -210,5 +222,6 @@ void cli_tune_say_next(cli_tuning *t)
     if (!t->has_slip) say_next_turn(t);
     say_next_correction(t);
     if (t->has_diagnosis && !t->has_slip) say_other_directions(t);
+    if (t->has_diagnosis && !t->has_slip) say_inductances(t);
     if (t->is_solved && t->solution.expected.state != HCI_RIPPLE_KNOWN) say_next_on_machine(t);
 }
