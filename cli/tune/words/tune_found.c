@@ -450,11 +450,10 @@ static void say_offset(cli_tuning *t, const order_sum *sum, size_t count)
         hci_tuning_say(
             &t->tuning, HCI_TUNING_UNKNOWN,
             "Whether order 1 is of the machine: an offset of the current sensors, %.2g A of i_q, makes order "
-            "1 "
-            "whatever the load, and magnets or teeth that are not alike make it too; these logs do not tell "
+            "1 whatever the load, and magnets or teeth that are not alike make it too; these logs do not "
+            "tell "
             "which. The table takes it away as it is, with these sensors. Where they are nulled, or in "
-            "another "
-            "drive, it would add %.2g N·m that were the offset's: null them first and record again.",
+            "another drive, it would add %.2g N·m that were the offset's: null them first and record again.",
             amplitude_Nm / t->reading.run.torque_constant_Nm_per_A, amplitude_Nm);
     }
 }

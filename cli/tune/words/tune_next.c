@@ -67,6 +67,22 @@ static void say_inductances(cli_tuning *t)
                    "differ, the search for what is missing begins nearer to it.");
 }
 
+static void say_next_without_sensor(cli_tuning *t)
+{
+    hci_tuning_say(
+        &t->tuning, HCI_TUNING_NEXT,
+        "On the same bench: play the table and make the same slow turn forward and back. What the "
+        "control adds to the i_q of the table (i_q less the i_q of the table) is what is left of the "
+        "cogging torque, and the speed varies less; i_q as it is measured has the table in it, and "
+        "looks as before. Spins at two other speeds, each in both directions, tell friction.%s%s",
+        has_load(t) ? ""
+                    : " Against a brake the same turn forward and back tells the harmonics of the "
+                      "back-EMF too.",
+        t->has_emf ? ""
+                   : " The torque per ampere takes a torque sensor, or voltages of the open machine "
+                     "that another one turns.");
+}
+
 /* What the bench at hand can do first. */
 static void say_next_on_machine(cli_tuning *t)
 {
@@ -78,19 +94,7 @@ static void say_next_on_machine(cli_tuning *t)
             "--runs LIST and what is known in MACHINE/effects.csv.",
             t->diagnosis.further_work, t->runs.count > 1 ? ", with fewer logs" : "");
     else if (!has_sensor(t))
-        hci_tuning_say(
-            &t->tuning, HCI_TUNING_NEXT,
-            "On the same bench: play the table and make the same slow turn forward and back. What the "
-            "control adds to the i_q of the table (i_q less the i_q of the table) is what is "
-            "left of the cogging torque, and the speed varies less; i_q as it is measured has the "
-            "table in it, and looks as before. Spins at two other speeds, each in both directions, "
-            "tell friction.%s%s",
-            has_load(t) ? ""
-                        : " Against a brake the same turn forward and back tells the harmonics of "
-                          "the back-EMF too.",
-            t->has_emf ? ""
-                       : " The torque per ampere takes a torque sensor, or voltages of the open "
-                         "machine that another one turns.");
+        say_next_without_sensor(t);
     else if (loads_of(t) >= ENOUGH_LOADS && t->diagnosis.verdict >= HCI_DIAGNOSIS_PARTLY)
         hci_tuning_say(
             &t->tuning, HCI_TUNING_NEXT,

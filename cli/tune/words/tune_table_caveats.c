@@ -42,13 +42,12 @@ static void append_of_zeros(cli_tuning *t)
 static void append_of_logs(cli_tuning *t)
 {
     if (t->once_a_turn_Nm > 0.0 && t->is_solved)
-        cli_tune_caveat(
-            t,
-            "%.3g N·m of the ripple come once or twice a turn, and a load on the shaft makes that as well as "
-            "the "
-            "motor, as a weight that is out of balance does: take the load off and record again, since the "
-            "table adds that ripple where the load is not there",
-            t->once_a_turn_Nm);
+        cli_tune_caveat(t,
+                        "%.3g N·m of the ripple come once or twice a turn, and a load on the shaft makes "
+                        "that as well as the motor, as a weight that is out of balance does: take the load "
+                        "off and record again, since the "
+                        "table adds that ripple where the load is not there",
+                        t->once_a_turn_Nm);
     if (cli_tune_clipped(t) > 0 && t->is_solved)
         cli_tune_caveat(t, "Currents in %zu of %zu logs are clipped, and what they tell is too small",
                         cli_tune_clipped(t), t->runs.count);
@@ -212,8 +211,7 @@ static void append_of_zero(cli_tuning *t)
             t,
             cli_tune_has_zero_of_voltages(t)
                 ? "Under load the back-EMF is found turned by %.1f ± %.1f degrees%s from where its voltages "
-                  "are, which "
-                  "stands for a saliency with its saturation: %s"
+                  "are, which stands for a saliency with its saturation: %s"
                 : "The back-EMF is found turned by %.1f ± %.1f degrees%s, which a saliency with its "
                   "saturation may do as well as another zero: %s",
             t->open_turn_deg, t->open_turn_error_deg, t->turn_is_of_dq ? " against i_d and i_q" : "",

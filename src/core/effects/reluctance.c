@@ -42,9 +42,6 @@ enum { MOST_ORDER = 60, MOST_LOW_ORDER = 24 };
 #define USUAL       12.0
 #define UNSYMMETRIC 60.0 /* of a rotor that does not look alike both ways round, or of unequal phases */
 
-/* Saliency and cross-coupling of the mean, of which the latter makes a torque that keeps its sign with the
- * load, and is told by loads of both signs alone; a rotor that looks alike both ways round has cos for dd and
- * qq and sin for dq. */
 /* Where hardly any current flowed along d, noise and errors of the angle are all that there is of it, and
  * take any saliency that suits: no other one than is declared is looked for then, and of one that is not no
  * more than a rotor with magnets has, where I_0 makes a few times their flux at most. */
@@ -65,6 +62,10 @@ static double expected_H(const hci_effect_survey *survey)
                : 0.0;
 }
 
+/* Saliency and cross-coupling of the mean, of which the latter makes a torque that keeps its sign with the
+ * load, and is told by loads of both signs alone; a rotor that looks alike both ways round has cos for dd and
+ * qq and sin for dq. Where no i_d was given, L_qq' and L_dq make the same wave of i_q², and only the one is
+ * looked for. */
 static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
 {
     static const size_t EVEN[] = {DD + 1, QQ + 1, DQ}, ODD[] = {DD, QQ, DQ + 1};

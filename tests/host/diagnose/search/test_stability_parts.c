@@ -28,6 +28,7 @@ void setUp(void)
 {
     seed = 8;
     memset(list, 0, sizeof list);
+    memset(beyond, 0, sizeof beyond);
     list[0] = (hci_candidate){.type = type("friction"), .count = 1, .in = true, .price = 3.0};
     list[1] = (hci_candidate){.type = type("reluctance"), .count = 2};
     list[2] = (hci_candidate){.type = type("cogging"), .count = 2, .in = true, .price = 5.0};
@@ -52,7 +53,8 @@ void setUp(void)
     }
     precision[0] = 0.5, precision[1] = 0.25, precision[2] = 0.125;
     l = (leaving){.search = &search, .model = &model, .precision = held, .with = with, .without = without};
-    l.equations = (hci_run_equations){.groups = {run, RUNS}, .run = run, .beyond = beyond, .precision = precision};
+    l.equations =
+        (hci_run_equations){.groups = {run, RUNS}, .run = run, .beyond = beyond, .precision = precision};
 }
 
 void tearDown(void)
@@ -119,6 +121,9 @@ static void test_what_a_type_is_worth(void)
     }
     TEST_ASSERT_DOUBLE_WITHIN(1e-10, fmax(sum, logs), worth_in(&l, untold));
     TEST_ASSERT_TRUE(worth_in(&l, NULL) > worth_in(&l, untold));
+    beyond[1] = true; /* a load that the others do not reach is not asked */
+    TEST_ASSERT_DOUBLE_WITHIN(1e-10, fmax(sum, logs), worth_in(&l, NULL));
+    beyond[1] = false;
     for (int r = 0; r < RUNS; ++r)
         with[r] *= 100.0, without[r] *= 100.0;
     TEST_ASSERT_DOUBLE_WITHIN(1e-8, 100.0 * sum, worth_in(&l, untold));
