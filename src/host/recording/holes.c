@@ -10,6 +10,7 @@
 #include "host/csv/column.h"
 #include "host/csv/table.h"
 #include "host/numeric/statistics.h"
+#include "host/recording/line_rows.h"
 
 typedef struct {
     hci_run_columns *c;
@@ -658,6 +659,7 @@ static hci_status leave_holes_out(hci_run_columns *c)
     if (!status) status = leave_all_still_out(&t);
     if (!status) status = conclude(&t);
     hci_memory_free(t.is_left);
+    if (!status) status = hci_line_rows_take(c);
     return status;
 }
 
