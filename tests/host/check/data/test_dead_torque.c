@@ -61,10 +61,53 @@ static void test_what_answers_is_none(void)
     TEST_ASSERT_FALSE(is_noise((double[]){5.0, 0.1}, (double[]){0.3, 0.3}, &noise_Nm));
 }
 
+/* A recording of a held rotor and a short one are no part of it, whatever they show; a torque without noise
+ * that was measured is no noise. */
+static void test_what_is_no_part_of_it(void)
+{
+    static const double SIZE[] = {0.1, 0.1}, MEAN[] = {0.3, 7.0};
+    double noise_Nm = NAN;
+    TEST_ASSERT_FALSE(is_noise(SIZE, MEAN, &noise_Nm));
+    run[1].is_held = true;
+    TEST_ASSERT_TRUE(hci_check_torques_are_noise(&data, &noise_Nm));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, sqrt(run[0].torque_variance), noise_Nm);
+    run[1].is_held = false;
+    run[1].count = 30;
+    TEST_ASSERT_FALSE(hci_check_torques_are_noise(&data, &noise_Nm));
+    run[1].count = 29;
+    TEST_ASSERT_TRUE(hci_check_torques_are_noise(&data, &noise_Nm));
+    run[1].count = ROWS;
+    run[1].torque_mean = run[0].torque_mean;
+    TEST_ASSERT_TRUE(hci_check_torques_are_noise(&data, &noise_Nm));
+    run[1].torque_variance = 0.0;
+    TEST_ASSERT_FALSE(hci_check_torques_are_noise(&data, &noise_Nm));
+    run[0].is_held = run[1].is_held = true;
+    TEST_ASSERT_FALSE(hci_check_torques_are_noise(&data, &noise_Nm));
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, noise_Nm);
+}
+
+/* A mean stands out from five of its errors on; noise that goes on from row to row is none. */
+static void test_means_and_rows(void)
+{
+    double noise_Nm = NAN;
+    check_run x = {.count = 100, .torque_variance = 4.0, .torque_mean = 1.01};
+    TEST_ASSERT_TRUE(hci_check_torque_stands_out(&x));
+    x.torque_mean = -1.01;
+    TEST_ASSERT_TRUE(hci_check_torque_stands_out(&x));
+    x.torque_mean = 0.99;
+    TEST_ASSERT_FALSE(hci_check_torque_stands_out(&x));
+    TEST_ASSERT_TRUE(is_noise((double[]){0.1, 0.1}, (double[]){0.0, 0.0}, &noise_Nm));
+    for (int k = 1; k < ROWS; ++k)
+        torque_Nm[0][k] += 0.6 * torque_Nm[0][k - 1];
+    TEST_ASSERT_FALSE(hci_check_torques_are_noise(&data, &noise_Nm));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_the_loudest_is_told);
     RUN_TEST(test_what_answers_is_none);
+    RUN_TEST(test_what_is_no_part_of_it);
+    RUN_TEST(test_means_and_rows);
     return UNITY_END();
 }

@@ -179,6 +179,25 @@ static void test_the_common_part_beside_declared_phases(void)
                                   value_in(&verdict(sensors)->alternative.candidates, phases, s));
 }
 
+/* Candidates of one phase each, in another order than the phases, behind sensors of which values are
+ * declared, too: each phase has what is declared of itself. */
+static void test_declared_phases_in_any_order(void)
+{
+    add_gains(0.10, 0.12, 0.02);
+    for (size_t s = 0; s < 3; ++s)
+        a.model.candidates.candidate[s].declared[0] = a.model.candidates.candidate[s].declared[1] = 0.5;
+    for (size_t s = 3; s-- > 0;) {
+        add(phases, s, 0.0, 0.0, NAN);
+        hci_candidate *x = &a.model.candidates.candidate[a.model.candidates.count - 1];
+        x->declared[0] = 0.03 + 0.04 * (double)s;
+        x->in = false;
+    }
+    mark();
+    for (size_t s = 0; s < 3; ++s)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-15, (1.03 + 0.04 * (double)s) / 1.11 - 1.0,
+                                  value_in(&verdict(sensors)->alternative.candidates, phases, s));
+}
+
 /* The same where they are one candidate before the sensors; of the phases as they were nothing is left. */
 static void test_declared_phases_in_one_candidate(void)
 {
@@ -380,6 +399,7 @@ int main(void)
     RUN_TEST(test_a_negative_sequence_is_one_of_phases);
     RUN_TEST(test_the_common_part_of_two_sensors);
     RUN_TEST(test_the_common_part_beside_declared_phases);
+    RUN_TEST(test_declared_phases_in_any_order);
     RUN_TEST(test_declared_phases_in_one_candidate);
     RUN_TEST(test_a_sensor_that_leaves);
     RUN_TEST(test_how_alike_two_sensors_are);
