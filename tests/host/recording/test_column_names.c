@@ -44,6 +44,56 @@ static void add(const char *text)
 
 #define CHANNELS "AI1,AI2 (mV),AI3,spare\n0,0,1,9\n0.1,1,2,9\n0.2,2,3,9\n"
 
+/* ---- as one text */
+
+static hci_status add_text(const char *text)
+{
+    hci_column_names_release(&names);
+    memset(&note, 0, sizeof note);
+    return hci_column_names_add_text(&names, text, "here:7", &note);
+}
+
+static void test_names_in_one_text(void)
+{
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, add_text("theta_m_rad=AI1;torque_Nm=-AI3"), note.text);
+    TEST_ASSERT_EQUAL_UINT64(2, names.count);
+    TEST_ASSERT_EQUAL_STRING("theta_m_rad", names.item[0].name);
+    TEST_ASSERT_EQUAL_STRING("AI1", names.item[0].column);
+    TEST_ASSERT_EQUAL_STRING("torque_Nm", names.item[1].name);
+    TEST_ASSERT_EQUAL_STRING("-AI3", names.item[1].column);
+    TEST_ASSERT_EQUAL_STRING("here:7", names.item[1].from);
+    const hci_column_names *const several[] = {&names, NULL, &names};
+    char *text = hci_column_names_text(several, 3);
+    TEST_ASSERT_EQUAL_STRING("theta_m_rad=AI1;torque_Nm=-AI3;theta_m_rad=AI1;torque_Nm=-AI3", text);
+    hci_column_names_text_free(text);
+    text = hci_column_names_text(several, 0);
+    TEST_ASSERT_EQUAL_STRING("", text);
+    hci_column_names_text_free(text);
+    TEST_ASSERT_EQUAL(HCI_OK, add_text(""));
+    TEST_ASSERT_EQUAL_UINT64(0, names.count);
+    TEST_ASSERT_EQUAL(HCI_OK, add_text("torque_Nm=a=b;"));
+    TEST_ASSERT_EQUAL_STRING("a=b", names.item[0].column);
+}
+
+/* A part without a name, a sign or a column; what follows a good one is told with its rest. */
+static void test_texts_that_are_no_names(void)
+{
+    static const char *const WRONG[] = {
+        "=AI3", "torque_Nm", "torque_Nm=", ";", "torque_Nm;AI3=x", "torque_Nm=;iq=a"};
+    char words[200];
+    for (size_t k = 0; k < sizeof WRONG / sizeof *WRONG; ++k) {
+        TEST_ASSERT_EQUAL_MESSAGE(HCI_ERROR_INPUT, add_text(WRONG[k]), WRONG[k]);
+        snprintf(words, sizeof words,
+                 "here:7: found `%s`, expected NAME=COLUMN;NAME=COLUMN such as torque_Nm=AI3", WRONG[k]);
+        TEST_ASSERT_EQUAL_STRING(words, note.text);
+    }
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, add_text("iq=a;=b;id=c"));
+    text_has("found `=b;id=c`", note.text);
+    TEST_ASSERT_EQUAL(HCI_OK, add_text("iq=a")); /* the shortest */
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, add_text("lamp=a;torque_Nm=b"));
+    text_has("here:7: found `lamp`", note.text);
+}
+
 /* ---- what they do */
 
 static void test_columns_without_a_name(void)
@@ -522,6 +572,8 @@ static void test_wrong_names_get_a_suggestion(void)
     wrong("torqe_Nm=AI3", "--column torqe_Nm=AI3: found `torqe_Nm`, expected a quantity of a recording; did "
                           "you mean `torque_Nm`?");
     wrong("torque_A=AI3", "expected a quantity of a recording");
+    wrong("speed_furlong=AI3", "it has units as in `speed_rad_per_s`, `speed_");
+    wrong("-iq=AI3", "the opposite sign stands before the column: iq=-AI3");
     wrong("lamp=AI3", "write one of time_s, theta_m_rad");
     wrong("torque_Nm", "expected NAME=COLUMN");
     wrong("=AI3", "expected NAME=COLUMN");
@@ -557,6 +609,8 @@ static void test_memory_runs_out_everywhere(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_names_in_one_text);
+    RUN_TEST(test_texts_that_are_no_names);
     RUN_TEST(test_columns_without_a_name);
     RUN_TEST(test_a_column_that_is_left_out);
     RUN_TEST(test_two_clocks_in_one_table);

@@ -270,6 +270,8 @@ static void test_few_samples(void)
     const size_t rows = make_rows(64, 16);
     const hci_effort effort = find(64, NULL), none = find(63, NULL);
     TEST_ASSERT_EQUAL_DOUBLE(0.0, none.braking);
+    TEST_ASSERT_TRUE(none.accelerating == 0.0 && none.slope == 0.0 && none.share == 0.0 &&
+                     none.of_all == 0.0 && !none.has_both_ways);
     is_near(solve(rows, 2, 3).value[1] / rms_of(iq_A, 64), effort.of_all);
 }
 

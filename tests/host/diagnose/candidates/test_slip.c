@@ -154,6 +154,32 @@ static void test_the_largest_order_decides(void)
     TEST_ASSERT_NULL(slip());
 }
 
+/* The same of a cogging torque of a thousandth. */
+static void test_small_cogging_torques(void)
+{
+    static const hci_harmonic SMALL[] = {{6.0, 0.5e-3, 0.2e-3}, {12.0, -0.1e-3, 0.15e-3}};
+    static const hci_machine TINY = {.cogging = SMALL, .cogging_count = 2};
+    show(3.0, 0.5, 0.2);
+    show(6.0, -0.1, 0.15);
+    show(12.0, 0.0, 0.0);
+    for (size_t k = 0; k < model.count; ++k)
+        for (int j = 0; j < 2; ++j)
+            candidate[k].term[j].value *= 1e-3;
+    const char *words = hci_slip_of_cogging(&TINY, &model, false);
+    TEST_ASSERT_NOT_NULL(words);
+    TEST_ASSERT_NOT_NULL(strstr(words, "in one ratio"));
+    model.count = 0;
+    show(6.0, 0.0, 0.0);
+    show(12.0, 0.0, 0.0);
+    show(4.0, 0.5, 0.2);
+    for (size_t k = 0; k < model.count; ++k)
+        for (int j = 0; j < 2; ++j)
+            candidate[k].term[j].value *= 1e-3;
+    words = hci_slip_of_cogging(&TINY, &model, true);
+    TEST_ASSERT_NOT_NULL(words);
+    TEST_ASSERT_NOT_NULL(strstr(words, "The holding tests show nothing at the orders"));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -171,5 +197,6 @@ int main(void)
     RUN_TEST(test_a_cogging_torque_of_its_own_is_none);
     RUN_TEST(test_another_share_is_none);
     RUN_TEST(test_the_largest_order_decides);
+    RUN_TEST(test_small_cogging_torques);
     return UNITY_END();
 }

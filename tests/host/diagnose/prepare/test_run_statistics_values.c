@@ -156,6 +156,22 @@ static void test_zeros_beside_the_largest_current(void)
     }
 }
 
+/* Whichever recording has it. */
+static void test_zeros_wherever_the_largest_current_is(void)
+{
+    for (size_t largest = 0; largest < 3; ++largest) {
+        hci_run_statistics x[3] = {{.current_A = 1.0}, {.current_A = 1.0}, {.current_A = 1.0}};
+        x[largest].current_A = 8.0;
+        for (size_t r = 0; r < 3; ++r) {
+            x[r].stands = x[r].is_loaded = true;
+            x[r].standing_A[r] = 0.39;
+        }
+        hci_run_statistics_zeros_find(x, 3, (double)NAN);
+        for (size_t r = 0; r < 3; ++r)
+            TEST_ASSERT_TRUE(x[r].zeros_read && !x[r].is_loaded);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -165,5 +181,6 @@ int main(void)
     RUN_TEST(test_direct_currents);
     RUN_TEST(test_means_of_phases);
     RUN_TEST(test_zeros_beside_the_largest_current);
+    RUN_TEST(test_zeros_wherever_the_largest_current_is);
     return UNITY_END();
 }
