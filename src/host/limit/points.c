@@ -332,13 +332,14 @@ hci_status hci_limit_peaks(const hci_limit_field *field, const hci_limit_grid *g
                            const double range[2], hci_limit_points *points, double *worst)
 {
     const size_t n = grid->samples;
-    double *row = hci_memory_new(hci_limit_row_room(field) + n, sizeof *row),
-           *over = row + hci_limit_row_room(field);
+    double *row = hci_memory_new(hci_limit_row_room(field) + n, sizeof *row);
+    *worst = -HUGE_VAL;
+    if (!row) return HCI_ERROR_MEMORY;
+    double *over = row + hci_limit_row_room(field);
     const search s = {field, grid, x, range, row};
     const double near = NEARLY * (range[1] - range[0]);
-    hci_status status = row ? HCI_OK : HCI_ERROR_MEMORY;
-    *worst = -HUGE_VAL;
-    for (size_t k = 0; !status && k < n; ++k)
+    hci_status status = HCI_OK;
+    for (size_t k = 0; k < n; ++k)
         over[k] = beyond(range, sample_at(grid, x, k));
     for (size_t k = 0; !status && k < n; ++k) {
         *worst = fmax(*worst, over[k]);
