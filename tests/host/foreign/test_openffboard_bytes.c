@@ -27,6 +27,11 @@ static void test_what_the_numbers_hold(void)
     TEST_ASSERT_EQUAL_DOUBLE((double)(float)(7.0 - 2.0 * HCI_PI), map.term[0].phase_rad);
     TEST_ASSERT_EQUAL_DOUBLE(0.25, map.term[1].amplitude);
     TEST_ASSERT_EQUAL_DOUBLE(-0.5, map.term[1].phase_rad);
+    map.term[1] = (hci_foreign_term){.order = 300.0, .amplitude = 0.1, .phase_rad = 7.0};
+    map.terms = 1; /* what is behind the terms stays as it is */
+    fit(&map);
+    TEST_ASSERT_EQUAL_DOUBLE(0.1, map.term[1].amplitude);
+    TEST_ASSERT_EQUAL_DOUBLE(7.0, map.term[1].phase_rad);
 }
 
 /* 100 counts are 0x42C80000, −0.5 is 0xBF000000, 300 is 0x012C, the lowest byte first; all else is 0. */
