@@ -680,6 +680,23 @@ static void test_sizes_that_do_not_fit_are_refused(void)
     hci_memory_free(NULL);
 }
 
+/* A line of separators alone is passed over, and says nothing of those of the table below it. */
+static void test_separators_above_the_table(void)
+{
+    static const char TEXT[] = ",,,\nzeit;strom\n1,5;2,5\n3,5;4,25\n";
+    hci_note note = {0};
+    hci_csv *csv;
+    double value[2];
+    write_scratch(TEXT, sizeof TEXT - 1);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_csv_read(scratch, &csv, &note), note.text);
+    TEST_ASSERT_EQUAL_UINT64(2, hci_csv_columns(csv));
+    TEST_ASSERT_EQUAL_UINT64(2, hci_csv_rows(csv));
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_csv_numbers(csv, "strom", value, &note), note.text);
+    TEST_ASSERT_EQUAL_DOUBLE(2.5, value[0]);
+    TEST_ASSERT_EQUAL_DOUBLE(4.25, value[1]);
+    hci_csv_free(csv);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -700,5 +717,6 @@ int main(void)
     RUN_TEST(test_long_and_odd_numbers_are_rounded_once);
     RUN_TEST(test_every_allocation_may_fail);
     RUN_TEST(test_sizes_that_do_not_fit_are_refused);
+    RUN_TEST(test_separators_above_the_table);
     return UNITY_END();
 }
