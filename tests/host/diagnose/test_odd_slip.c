@@ -99,20 +99,22 @@ static void test_slips_of_a_file(void)
 
 /* ---- the angle ---- */
 
-/* Ahead by 25° mechanical, 75° electrical; the currents are those that flowed. */
+/* Ahead by 25° and by 22.4° mechanical, three times that electrical, on and between the angles that are tried
+ * first; the currents are those that flowed. */
 static void test_another_index_of_the_angle(void)
 {
-    for (int sign = -1; sign < 2; sign += 2) {
+    for (int n = 0; n < 4; ++n) {
+        const double sign = n % 2 ? 1.0 : -1.0, ahead_deg = n < 2 ? 25.0 : 22.4;
         tearDown();
         setUp();
-        const double ahead = sign * 25.0 * REF_PI / 180.0;
+        const double ahead = sign * ahead_deg * REF_PI / 180.0;
         for (size_t k = 0; k < SAMPLES; ++k)
             run[0].theta_m_rad[k] += ahead;
         double mechanical = 0.0, electrical = 0.0;
         TEST_ASSERT_EQUAL_INT(2, sscanf(find(0.0), "its angle is ahead by %lf° mechanical (%lf° electrical)",
                                         &mechanical, &electrical));
-        TEST_ASSERT_DOUBLE_WITHIN(0.1, sign * 25.0, mechanical);
-        TEST_ASSERT_DOUBLE_WITHIN(0.3, sign * 75.0, electrical);
+        TEST_ASSERT_DOUBLE_WITHIN(0.1, sign * ahead_deg, mechanical);
+        TEST_ASSERT_DOUBLE_WITHIN(0.3, sign * 3.0 * ahead_deg, electrical);
         TEST_ASSERT_TRUE(odd.mended);
         TEST_ASSERT_DOUBLE_WITHIN(1e-3, ahead, odd.angle_rad);
         TEST_ASSERT_DOUBLE_WITHIN(0.1 * NOISE_NM, NOISE_NM, odd.mended_Nm);
