@@ -7,6 +7,7 @@
 
 const hci_segment *hci_regression_next(const hci_regression *e, const hci_segment *after)
 {
+    if (e->samples->segment_count == 0) return NULL;
     const hci_segment *end = e->samples->segment + e->samples->segment_count;
     const hci_segment *s = after ? after + 1 : e->samples->segment;
     while (s < end && !e->use[s->run])
