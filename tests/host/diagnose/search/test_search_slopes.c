@@ -37,6 +37,7 @@ static void test_a_twentieth_of_the_noise_shows(void)
 {
     TEST_ASSERT_FALSE(shows(0.0));
     TEST_ASSERT_FALSE(shows(0.045));
+    TEST_ASSERT_FALSE(shows(0.048));
     TEST_ASSERT_TRUE(shows(0.055));
     search_start();
 }
