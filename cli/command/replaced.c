@@ -1,6 +1,8 @@
 #define _XOPEN_SOURCE 700
 #include "cli/command/replaced.h"
 
+#include <errno.h>
+#include <fcntl.h>
 #include <ftw.h>
 #include <stdio.h>
 #include <string.h>
@@ -49,7 +51,7 @@ static void delete_all(const char *folder)
     nftw(folder, delete_one, MOST_OPEN, FTW_DEPTH | FTW_PHYS);
 }
 
-/* ---- in its place ---- */
+/* ---- names ---- */
 
 /* "way/.name.before" of "way/name/"; false: a folder without a name of its own. */
 static bool aside_of(const char *folder, char plain[CLI_REPLACED_PATH], char aside[CLI_REPLACED_PATH])
@@ -67,6 +69,50 @@ static bool aside_of(const char *folder, char plain[CLI_REPLACED_PATH], char asi
     snprintf(aside + way, CLI_REPLACED_PATH - way, ".%s.before", name);
     return true;
 }
+
+/* ---- one call at a time ---- */
+
+static struct {
+    int descriptor; /* with the lock; 0: none */
+    char path[CLI_REPLACED_PATH];
+} lock;
+
+/* Whether the file is still that of the path: who had the lock before takes it away. */
+static bool is_current(int descriptor, const char *path)
+{
+    struct stat mine, there;
+    return fstat(descriptor, &mine) == 0 && lstat(path, &there) == 0 && mine.st_ino == there.st_ino &&
+           mine.st_dev == there.st_dev;
+}
+
+/* Locks "way/.name.lock". False: another call has it. Where none can be made there is none. */
+static bool lock_take(const char *aside)
+{
+    struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    snprintf(lock.path, sizeof lock.path, "%.*s.lock", (int)(strrchr(aside, '.') - aside), aside);
+    for (;;) {
+        const int descriptor = open(lock.path, O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
+        if (descriptor < 0) return true;
+        const bool got = fcntl(descriptor, F_SETLK, &whole) == 0;
+        const bool kept = !got && (errno == EACCES || errno == EAGAIN);
+        if (got && is_current(descriptor, lock.path)) {
+            lock.descriptor = descriptor;
+            return true;
+        }
+        close(descriptor);
+        if (!got) return !kept;
+    }
+}
+
+static void lock_release(void)
+{
+    if (lock.descriptor <= 0) return;
+    unlink(lock.path);
+    close(lock.descriptor);
+    lock.descriptor = 0;
+}
+
+/* ---- in its place ---- */
 
 static bool summary_of(const char *folder, struct stat *summary)
 {
@@ -100,6 +146,12 @@ hci_status cli_replaced_set_aside(const char *folder, char aside[CLI_REPLACED_PA
     struct stat summary;
     aside[0] = '\0';
     if (!aside_of(folder, plain, name)) return HCI_OK;
+    if (!lock_take(name))
+        return hci_note_set(
+            note, HCI_ERROR_OUTPUT,
+            "%s: another process is writing into it; wait until it has ended, or name another "
+            "folder",
+            plain);
     mend(plain, name);
     if (!is_folder(plain) || !summary_of(plain, &summary)) return HCI_OK;
     const hci_status status = check_unchanged(plain, &summary, note);
@@ -110,11 +162,11 @@ hci_status cli_replaced_set_aside(const char *folder, char aside[CLI_REPLACED_PA
 void cli_replaced_settle(const char *folder, const char *aside, bool is_written)
 {
     char plain[CLI_REPLACED_PATH], name[CLI_REPLACED_PATH];
-    if (aside[0] == '\0') return;
-    if (is_written) {
+    if (aside[0] != '\0' && is_written) {
         delete_all(aside);
-    } else if (aside_of(folder, plain, name)) {
+    } else if (aside[0] != '\0' && aside_of(folder, plain, name)) {
         delete_all(plain);
         (void)rename(aside, plain);
     }
+    lock_release();
 }

@@ -36,6 +36,17 @@ for older in none older_tuning; do
     check "tune killed at random, $older" python3 tests/faults/random_kills.py 5 2 "$hci_solve" "$work/$older" $tune --kv 39
 done
 
+# Two of them at once: the second could take the files of the first away, which had ended with exit code 0.
+check "two of tune" python3 tests/faults/two_writers.py 6 5 "$hci_solve" "$work/older_tuning" $tune --kv 39 -- $tune --kv 41
+check "tune beside another one" python3 - "$work" "$hci_solve" $tune --kv 39 <<'PYTHON'
+import fcntl, subprocess, sys
+with open(sys.argv[1] + "/.older_tuning.lock", "w") as lock:
+    fcntl.lockf(lock, fcntl.LOCK_EX)
+    ended = subprocess.run([*sys.argv[2:], "-o", sys.argv[1] + "/older_tuning"], capture_output=True, text=True)
+words = "older_tuning: another process is writing into it; wait until it has ended, or name another folder"
+sys.exit(not (ended.returncode == 5 and words in ended.stderr))
+PYTHON
+
 cp -R "$work/older" "$work/before"
 flock -o "$work/older" sleep 5 &
 holder=$!
