@@ -164,7 +164,6 @@ typedef struct {
     bool loaded_both_ways;      /* under load in one run forward, in one backward */
     bool one_sided;       /* all loads have an i_q of one sign, of which none tells what of the mean torque
                            * keeps its sign with the load */
-    bool one_current;     /* all loads have the same steady i_d and i_q */
     bool has_temperature; /* of the magnets, which changes */
     bool has_turn;        /* the angle tells where in the mechanical turn the rotor was */
     bool has_neutral;     /* the phases may carry the same current all at once */

@@ -71,7 +71,7 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
     static const size_t EVEN[] = {DD + 1, QQ + 1, DQ}, ODD[] = {DD, QQ, DQ + 1};
     const int most = survey->richness > 0 ? MOST_ORDER : MOST_LOW_ORDER;
     const bool no_direct = survey->flows_d_A < HARDLY * survey->current_A;
-    if (!survey->one_current && (!no_direct || survey->machine->slope_count == 0))
+    if (!no_direct || survey->machine->slope_count == 0)
         hci_effect_propose(to, DD + 1, 1, 0.0, 1.0, expected_H(survey));
     if (!survey->one_sided) hci_effect_propose(to, DQ + 1, 1, 0.0, 4.0, expected_H(survey));
     for (int n = 2; n <= most; n += n == 2 ? 4 : 6)

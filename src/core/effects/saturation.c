@@ -119,7 +119,6 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
 {
     const int degrees = survey->richness > 1 ? 6 : 4, orders = survey->richness > 0 ? 60 : 12;
     if (!(survey->reference_current_A > 0.0)) return; /* a series in currents relative to it */
-    if (survey->one_current) return;                  /* of which one value tells no power */
     for (size_t k = 0; MONOMIAL[k].a + MONOMIAL[k].b <= degrees; ++k)
         for (int order = 0; order <= orders; order += 6)
             propose_order(survey, to, k, order);

@@ -399,22 +399,6 @@ static void test_a_mean_of_one_sign(void)
     }
 }
 
-/* One current tells no power of it, nor a saliency from other magnets. */
-static void test_one_current(void)
-{
-    hci_effect_survey s = recordings();
-    s.one_current = true;
-    count = 0;
-    hci_effect_type_find("saturation")->propose(&s, &TO);
-    TEST_ASSERT_EQUAL_UINT64(0, count);
-    const hci_effect_type *type = hci_effect_type_find("reluctance");
-    type->propose(&s, &TO);
-    TEST_ASSERT_TRUE(count > 0);
-    for (size_t k = 0; k < count; ++k)
-        TEST_ASSERT_FALSE(taken[k].order == 0.0 &&
-                          strcmp(type->parameter[taken[k].parameter].name, "dd_cosine") == 0);
-}
-
 /* Of the means, d0q3 and the like make a torque of i_d alone: where it only ripples they are not looked for,
  * and the loss of torque with load (d1q2) is. Of the ripple, d1q2 makes the same wave as d0q3. */
 static void test_means_without_an_i_d(void)
@@ -737,7 +721,6 @@ int main(void)
     RUN_TEST(test_orders_of_reluctance);
     RUN_TEST(test_a_saliency_without_an_i_d);
     RUN_TEST(test_powers_of_saturation);
-    RUN_TEST(test_one_current);
     RUN_TEST(test_means_without_an_i_d);
     RUN_TEST(test_inductances_without_an_i_d);
     RUN_TEST(test_a_mean_of_one_sign);

@@ -19,11 +19,10 @@ enum {
     MOST_SPEEDS = 3
 };
 
-#define SIMILAR      0.15 /* speeds that differ by less, as a share, are the same */
-#define LEAST_LOAD   0.1  /* of the largest current, in a run with a load; and of its own, along q */
-#define EVEN_LOAD    0.7  /* of the current, that its mean is in a run with one load all along */
-#define SAME_CURRENT 0.05 /* of the largest, by which mean currents of loads differ that are one */
-#define AROUND       1.2  /* standard deviations above a mean speed: at 0.85 of a ramp from 0 */
+#define SIMILAR    0.15 /* speeds that differ by less, as a share, are the same */
+#define LEAST_LOAD 0.1  /* of the largest current, in a run with a load; and of its own, along q */
+#define EVEN_LOAD  0.7  /* of the current, that its mean is in a run with one load all along */
+#define AROUND     1.2  /* standard deviations above a mean speed: at 0.85 of a ramp from 0 */
 
 #define LEAST_PERIOD 0.02 /* electrical, that a shaft turns by which is not held */
 #define WHOLE_TURN   0.95 /* mechanical: the last sample stands before the first one */
@@ -205,23 +204,6 @@ static bool are_one_sided(const hci_binned_samples *samples, const bool *use)
     return !(drives && brakes);
 }
 
-/* Whether all loads have the same current along d and q, all along: what goes with one power of it goes with
- * any other. */
-static bool are_one_current(const hci_binned_samples *samples, const bool *use)
-{
-    const double most_A = largest_current_A(samples, use);
-    const hci_run_statistics *first = NULL;
-    for (size_t r = 0; r < samples->run_count; ++r) {
-        const hci_run_statistics *f = &samples->statistics[r];
-        if (!use[r] || !(f->current_A > LEAST_LOAD * most_A)) continue;
-        if (hypot(f->mean_id_A, f->mean_iq_A) < EVEN_LOAD * f->current_A) return false;
-        if (!first) first = f;
-        if (hypot(f->mean_id_A - first->mean_id_A, f->mean_iq_A - first->mean_iq_A) > SAME_CURRENT * most_A)
-            return false;
-    }
-    return first != NULL;
-}
-
 /* Whether the shaft turned forward and back under load. */
 static bool are_loaded_both_ways(const hci_binned_samples *samples, const bool *use)
 {
@@ -260,7 +242,6 @@ static hci_effect_survey survey_of(const hci_candidates_source *s)
     }
     x.has_temperature = warms(s);
     x.one_sided = are_one_sided(s->samples, s->use);
-    x.one_current = are_one_current(s->samples, s->use);
     x.loaded_both_ways = are_loaded_both_ways(s->samples, s->use);
     x.reference_current_A = s->reference_current_A > 0.0 ? s->reference_current_A : x.current_A;
     return x;

@@ -1,4 +1,4 @@
-/* Whether all loads have an i_q of one sign or one current, and whether recordings have an angle at all. */
+/* Whether all loads have an i_q of one sign, and whether recordings have an angle at all. */
 #include "host/diagnose/candidates/make_candidates.c"
 
 #include "unity.h"
@@ -58,32 +58,6 @@ static void test_loads_of_one_sign(void)
         }
 }
 
-/* Runs without a current do not count, nor those that are not in use; a current that is another one along d
- * or q, or varies within its run, does. */
-static void test_loads_of_one_current(void)
-{
-    for (size_t other = 0; other < RUNS; ++other) {
-        set((double[]){5.0, 5.0, 5.0});
-        TEST_ASSERT_TRUE(are_one_current(&samples, use));
-        statistics[other].mean_iq_A = 5.24;
-        TEST_ASSERT_TRUE(are_one_current(&samples, use));
-        statistics[other].mean_iq_A = 5.26;
-        TEST_ASSERT_FALSE(are_one_current(&samples, use));
-        use[other] = false;
-        TEST_ASSERT_TRUE(are_one_current(&samples, use));
-        set((double[]){5.0, 5.0, 5.0});
-        statistics[other].mean_id_A = -0.26;
-        TEST_ASSERT_FALSE(are_one_current(&samples, use));
-        statistics[other] = (hci_run_statistics){.current_A = 0.49, .mean_iq_A = 0.49};
-        TEST_ASSERT_TRUE(are_one_current(&samples, use));
-        set((double[]){5.0, 5.0, 5.0});
-        statistics[other].current_A = 7.2;
-        TEST_ASSERT_FALSE(are_one_current(&samples, use));
-    }
-    set((double[]){0.0, 0.0, 0.0});
-    TEST_ASSERT_FALSE(are_one_current(&samples, use));
-}
-
 /* Means over a turn alone have none; one recording in use with an angle is enough. */
 static void test_recordings_without_an_angle(void)
 {
@@ -103,7 +77,6 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_the_largest_current);
     RUN_TEST(test_loads_of_one_sign);
-    RUN_TEST(test_loads_of_one_current);
     RUN_TEST(test_recordings_without_an_angle);
     return UNITY_END();
 }
