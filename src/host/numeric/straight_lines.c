@@ -20,6 +20,7 @@ enum { STRETCH = 64 /* rows in which nodes are looked for; they are followed fro
 #define LEAST_STEP    1.4 /* rows: nearer nodes explain smooth values as well */
 #define MOST_STEP     25.0
 #define RATE_STEP     0.002 /* nodes per row: over half a stretch a fifteenth of a node */
+#define SHARP         0.4   /* of what nodes half a step beside leave */
 #define MOST_AT_FIRST 0.5   /* that is left, while nodes are not yet where they belong */
 
 /* Rows whose values are looked at, and memory for the normal equations, which are tridiagonal. */
@@ -174,6 +175,13 @@ static void stretch_of(const rows *all, size_t from, size_t to, rows *x)
     x->noise = noise_of(x->value, x->n);
 }
 
+/* Whether lines between other nodes leave more: near smooth values they leave as little. */
+static bool are_sharp(rows *x, const hci_line_nodes *nodes, double left)
+{
+    const hci_line_nodes other = nodes_through(x, nodes->step, nodes->first + 0.5 * nodes->step);
+    return left <= hci_line_nodes_most_left && left <= SHARP * left_by(x, &other);
+}
+
 static bool follow(const rows *all, rows *x, hci_line_nodes *nodes)
 {
     const size_t n = all->n;
@@ -183,7 +191,7 @@ static bool follow(const rows *all, rows *x, hci_line_nodes *nodes)
     for (;;) {
         const double left = improve(x, nodes);
         if (!(left <= MOST_AT_FIRST)) return false;
-        if (from == 0 && to == n) return left <= hci_line_nodes_most_left;
+        if (from == 0 && to == n) return are_sharp(x, nodes, left);
         const size_t half = (to - from) / 2;
         from = from > half ? from - half : 0;
         to = n - to > half ? to + half : n;

@@ -95,6 +95,9 @@ static void test_nothing_else_is_lines(void)
         value[k] = sin(0.07 * k) + 0.3 * sin(0.5 * k);
     TEST_ASSERT_FALSE(hci_line_nodes_find(row, value, ROWS, &nodes)); /* smooth */
     for (int k = 0; k < ROWS; ++k)
+        value[k] = sin(k);
+    TEST_ASSERT_FALSE(hci_line_nodes_find(row, value, ROWS, &nodes)); /* quick, and smooth all the same */
+    for (int k = 0; k < ROWS; ++k)
         value[k] = k % 5 ? value[k - 1] : ref_normal(&draws);
     TEST_ASSERT_FALSE(hci_line_nodes_find(row, value, ROWS, &nodes)); /* held */
     for (int k = 0; k < ROWS; ++k)
