@@ -12,7 +12,8 @@ enum {
     LOOKS = 10,       /* by which they are brought to their places, each nearer */
     MANY_ROWS = 2000, /* of more, LOOKS_AT_MANY do: they are in their places but for little */
     LOOKS_AT_MANY = 3,
-    LEAST_ROWS = 200
+    LEAST_ROWS = 200,
+    MOST_LAG = 64
 };
 
 enum { STRETCH = 64 /* rows in which nodes are looked for; they are followed from there to both ends */ };
@@ -33,7 +34,7 @@ typedef struct {
 
 /* rms of the fourth differences, as a share of which white noise is 1. Smooth values have hardly any: lines
  * are near them between any nodes. */
-static double noise_of(const double *value, size_t n)
+static double bend_of(const double *value, size_t n)
 {
     double sum = 0.0;
     for (size_t k = 2; k + 2 < n; ++k) {
@@ -42,6 +43,20 @@ static double noise_of(const double *value, size_t n)
         sum += bend * bend;
     }
     return n > 4 ? sqrt(sum / (70.0 * (double)(n - 4))) : 0.0;
+}
+
+/* By how much values differ from those some rows before, so many that it is least, as a share of which white
+ * noise is 1. Values that repeat hardly do: between few rows of a period lines go through all of them. */
+static double change_of(const double *value, size_t n)
+{
+    double least = INFINITY;
+    for (size_t lag = 2; lag <= MOST_LAG && 4 * lag <= n; ++lag) {
+        double sum = 0.0;
+        for (size_t k = lag; k < n; ++k)
+            sum += (value[k] - value[k - lag]) * (value[k] - value[k - lag]);
+        least = fmin(least, sqrt(sum / (2.0 * (double)(n - lag))));
+    }
+    return least;
 }
 
 /* The node before a row, and how far towards the next it is. */
@@ -172,7 +187,7 @@ static void stretch_of(const rows *all, size_t from, size_t to, rows *x)
     x->row = all->row + from;
     x->value = all->value + from;
     x->n = to - from;
-    x->noise = noise_of(x->value, x->n);
+    x->noise = fmin(bend_of(x->value, x->n), change_of(x->value, x->n));
 }
 
 /* Whether lines between other nodes leave more: near smooth values they leave as little. */

@@ -98,6 +98,9 @@ static void test_nothing_else_is_lines(void)
         value[k] = sin(k);
     TEST_ASSERT_FALSE(hci_line_nodes_find(row, value, ROWS, &nodes)); /* quick, and smooth all the same */
     for (int k = 0; k < ROWS; ++k)
+        value[k] = sin(0.8 * REF_PI * k) + 0.5 * sin(1.6 * REF_PI * k + 1.0) + 0.05 * ref_normal(&draws);
+    TEST_ASSERT_FALSE(hci_line_nodes_find(row, value, ROWS, &nodes)); /* five rows that repeat */
+    for (int k = 0; k < ROWS; ++k)
         value[k] = k % 5 ? value[k - 1] : ref_normal(&draws);
     TEST_ASSERT_FALSE(hci_line_nodes_find(row, value, ROWS, &nodes)); /* held */
     for (int k = 0; k < ROWS; ++k)
