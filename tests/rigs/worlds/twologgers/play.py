@@ -22,7 +22,7 @@ M={'servo':servo,'hub':hub,'ipm':ipm}[mot]; S={'servo':S1,'hub':Sens(),'ipm':S3}
 N=int(os.environ.get('N',7000)); thm=np.arange(N)*2*np.pi/N
 def play(fn,corr):
     a=S.angle(thm)
-    if corr: a=a-sum((k*(np.sin if f=='sin' else np.cos)(n*a) for k,f,n in ang),0*a)
+    if corr: a=a+float(os.environ.get("SH",0))-sum((k*(np.sin if f=='sin' else np.cos)(n*a) for k,f,n in ang),0*a)
     d,q=fn(a)
     r=dq2abc(d,q,p*a)
     if corr: r=[r[k]*gi[k]+oi[k] for k in range(3)]
