@@ -16,7 +16,7 @@ typedef struct {
 /* Looks for nodes 1.4 to 25 rows apart between which values of n rows are straight lines; the widest, where
  * several are. row: [n], ascends from row to row by 1 but for those that are left out. Values that are
  * smooth, or held over several rows, are none. False: none are found, or memory is out
- * (hci_memory_was_short). n from 200. Time: some ms, and 60 n where there are some. */
+ * (hci_memory_was_short). n from 200. Time: some ms, and some 200 n where there are some. */
 bool hci_line_nodes_find(const double *row, const double *value, size_t n, hci_line_nodes *nodes);
 
 /* The values of the nodes by least squares. at_node: out, [nodes->count]. Returns what the lines leave, as a
@@ -25,7 +25,7 @@ bool hci_line_nodes_find(const double *row, const double *value, size_t n, hci_l
 double hci_line_nodes_fit(const double *row, const double *value, size_t n, const hci_line_nodes *nodes,
                           double *at_node);
 
-/* Up to here they are lines: what a jitter of the nodes by a tenth of their distance leaves. */
+/* Up to here they are lines: what a jitter of the nodes by a tenth of a row leaves. */
 extern const double hci_line_nodes_most_left;
 
 #endif

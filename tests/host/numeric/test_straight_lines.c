@@ -67,13 +67,17 @@ static void test_nodes_and_their_values_come_back(void)
     }
 }
 
+/* By less than a tenth of a row. */
 static void test_nodes_that_jitter_a_little(void)
 {
-    make_lines(-0.3, 1.7, 0.05);
-    TEST_ASSERT_TRUE(hci_line_nodes_find(row, value, ROWS, &nodes));
-    TEST_ASSERT_DOUBLE_WITHIN(1e-3, 1.7, nodes.step);
-    make_lines(-0.3, 1.7, 0.5);
-    TEST_ASSERT_FALSE(hci_line_nodes_find(row, value, ROWS, &nodes));
+    static const double steps[] = {1.7, 2.5, 3.37, 5.0, 10.0};
+    for (size_t k = 0; k < sizeof steps / sizeof *steps; ++k) {
+        make_lines(-0.3, steps[k], 0.04 / steps[k]);
+        TEST_ASSERT_TRUE(hci_line_nodes_find(row, value, ROWS, &nodes));
+        TEST_ASSERT_DOUBLE_WITHIN(1e-3 * steps[k], steps[k], nodes.step);
+        make_lines(-0.3, steps[k], 0.2 / steps[k]);
+        TEST_ASSERT_FALSE(hci_line_nodes_find(row, value, ROWS, &nodes));
+    }
 }
 
 static void test_rows_that_were_left_out(void)
@@ -98,9 +102,6 @@ static void test_nothing_else_is_lines(void)
         value[k] = sin(k);
     TEST_ASSERT_FALSE(hci_line_nodes_find(row, value, ROWS, &nodes)); /* quick, and smooth all the same */
     for (int k = 0; k < ROWS; ++k)
-        value[k] = sin(0.8 * REF_PI * k) + 0.5 * sin(1.6 * REF_PI * k + 1.0) + 0.05 * ref_normal(&draws);
-    TEST_ASSERT_FALSE(hci_line_nodes_find(row, value, ROWS, &nodes)); /* five rows that repeat */
-    for (int k = 0; k < ROWS; ++k)
         value[k] = k % 5 ? value[k - 1] : ref_normal(&draws);
     TEST_ASSERT_FALSE(hci_line_nodes_find(row, value, ROWS, &nodes)); /* held */
     for (int k = 0; k < ROWS; ++k)
@@ -112,6 +113,20 @@ static void test_nothing_else_is_lines(void)
     for (int k = 0; k < ROWS; ++k)
         value[k] = 3.0;
     TEST_ASSERT_FALSE(hci_line_nodes_find(row, value, ROWS, &nodes)); /* nothing */
+}
+
+/* Few rows a period, of a ripple that is large beside its noise: lines go near all of them. */
+static void test_what_repeats_is_no_lines(void)
+{
+    for (uint64_t draws = 1; draws <= 10; ++draws) {
+        uint64_t state = draws;
+        for (int k = 0; k < 200; ++k) {
+            const double x = 0.36 * REF_PI * k;
+            value[k] = 0.03 * sin(x + 0.5) + 0.01 * cos(2.0 * x) - 0.03 * cos(x + 0.3) +
+                       0.006 * sin(x + 0.3) + 0.002 * ref_normal(&state);
+        }
+        TEST_ASSERT_FALSE(hci_line_nodes_find(row, value, 200, &nodes));
+    }
 }
 
 static void test_nodes_at_every_row_are_none(void)
@@ -142,6 +157,7 @@ int main(void)
     RUN_TEST(test_nodes_that_jitter_a_little);
     RUN_TEST(test_rows_that_were_left_out);
     RUN_TEST(test_nothing_else_is_lines);
+    RUN_TEST(test_what_repeats_is_no_lines);
     RUN_TEST(test_nodes_at_every_row_are_none);
     RUN_TEST(test_memory_that_is_short);
     return UNITY_END();
