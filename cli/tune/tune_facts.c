@@ -363,6 +363,17 @@ double cli_tune_taken_by_inertia_Nm(const cli_tuning *t, const hci_run **of)
 
 /* ---- an inertia that is declared ---- */
 
+const hci_run *cli_tune_untold_inertia(const cli_tuning *t)
+{
+    const hci_run *of = NULL;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        if (r->inertia_limit_kgm2 > 0.0 && (of == NULL || r->inertia_limit_kgm2 < of->inertia_limit_kgm2))
+            of = r;
+    }
+    return of;
+}
+
 const hci_run *cli_tune_denied_inertia(const cli_tuning *t)
 {
     for (size_t k = 0; k < t->runs.count; ++k)

@@ -104,6 +104,9 @@ double cli_tune_strange_rpm(const cli_tuning *tune);
  * of: out, that recording, which has the inertia. 0: --inertia was given, or none was asked for. */
 double cli_tune_taken_by_inertia_Nm(const cli_tuning *tune, const hci_run **of);
 
+/* The slow turn of unknown inertia that it matters most for; NULL: none. */
+const hci_run *cli_tune_untold_inertia(const cli_tuning *tune);
+
 /* The recording whose turns deny the declared inertia; NULL: none. */
 const hci_run *cli_tune_denied_inertia(const cli_tuning *tune);
 

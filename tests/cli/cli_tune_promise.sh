@@ -127,6 +127,12 @@ check "an inertia that is known is not" [ "$(grep -c 'The inertia, which beside 
 "$hci_solve" tune smooth_load.csv --pole-pairs 7 --kv 120 --rated-current 3 --torque 0.1 -o uneven_alone -q 2>stderr
 check "nothing is said of the inertia" grep -q 'The inertia, which beside a load nothing in these logs tells: from [0-9.e-]* kg·m² of rotor' uneven_alone/summary.json
 
+# nor do turns that hasten alike forward and back tell it
+uneven_turn alike.csv 0.05 2.1 0.1
+run 0 tune alike.csv --pole-pairs 7 --kv 120 --rated-current 3 --slots 12 -o alike
+says '^  - The inertia is not known: from [0-9.e-]+ kg·m² on, a tenth or more of the orders found is what accelerates'
+check "orders are known beside an inertia that is not" [ "$(grep -c 'its orders are known to' stdout)" -eq 0 ]
+
 # ---- beside a model that does not explain what was recorded stands what was recorded
 
 uneven() { # FILE RPM AMPERES: the ripple of the load swells and fades over the turns

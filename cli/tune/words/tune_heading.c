@@ -90,7 +90,7 @@ static void say_doubtful(const cli_tuning *t, double before_Nm, char *text, size
 static void say_of_model(const cli_tuning *t, double before_Nm, double after_Nm, char *text, size_t size)
 {
     char known[64] = "";
-    if (t->cogging_known_Nm > after_Nm)
+    if (t->cogging_known_Nm > after_Nm && !cli_tune_untold_inertia(t))
         snprintf(known, sizeof known, " (its orders are known to %.1g N·m)", t->cogging_known_Nm);
     snprintf(text, size, "A ripple of %.3g N·m from peak to peak %s %.3g N·m%s in the model; %s", before_Nm,
              becomes(before_Nm, after_Nm), after_Nm, known, not_known(t));

@@ -145,26 +145,26 @@ static void say_limits(cli_tuning *t)
     if (cli_tune_misses_slots(t)) say_missed_slots(t);
 }
 
-/* Of a slow turn against a load, of which nothing tells the inertia: the one that it matters most for. */
+/* Of slow turns of which nothing tells the inertia. */
 static void say_inertia_limit(cli_tuning *t)
 {
-    double least_kgm2 = INFINITY;
-    for (size_t k = 0; k < t->runs.count; ++k)
-        if (t->runs.run[k].inertia_limit_kgm2 > 0.0)
-            least_kgm2 = fmin(least_kgm2, t->runs.run[k].inertia_limit_kgm2);
-    if (!t->is_solved || !isfinite(least_kgm2)) return;
+    const hci_run *of = cli_tune_untold_inertia(t);
+    if (!t->is_solved || of == NULL) return;
+    hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN,
+                   "The inertia, which %snothing in these logs tells: from %.2g kg·m² of rotor and "
+                   "what turns with it on, a tenth or more of the orders found is what accelerates and no "
+                   "torque of the motor.",
+                   of->mean_is_unknown ? "beside a load " : "", of->inertia_limit_kgm2);
     hci_tuning_say(
-        &t->tuning, HCI_TUNING_UNKNOWN,
-        "The inertia, which beside a load nothing in these logs tells: from %.2g kg·m² of rotor and "
-        "what turns with it on, a tenth or more of the orders found is what accelerates and no "
-        "torque of the motor.",
-        least_kgm2);
-    hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
-                   cli_tune_has_free_turn(t)
-                       ? "Give --inertia of the rotor with what turns with it: the turn without a load "
-                         "that is among these logs does not tell it."
-                       : "Give --inertia of the rotor with what turns with it, or the same slow turn without "
-                         "the load too, which tells it.");
+        &t->tuning, HCI_TUNING_NEXT,
+        !of->mean_is_unknown
+            ? "Give --inertia of the rotor with what turns with it, or turn the shaft at half of the "
+              "speed too, and twice as fast, where the inertia shows."
+        : cli_tune_has_free_turn(t)
+            ? "Give --inertia of the rotor with what turns with it: the turn without a load "
+              "that is among these logs does not tell it."
+            : "Give --inertia of the rotor with what turns with it, or the same slow turn without "
+              "the load too, which tells it.");
 }
 
 static void say_inertia(cli_tuning *t)

@@ -156,6 +156,17 @@ static void append_of_inertia(cli_tuning *t)
             of->turns_inertia_kgm2, of->turns_inertia_error_kgm2, taken_Nm);
 }
 
+static void append_of_untold_inertia(cli_tuning *t)
+{
+    const hci_run *of = cli_tune_untold_inertia(t);
+    if (t->is_solved && of)
+        cli_tune_caveat(
+            t,
+            "The inertia is not known: from %.2g kg·m² on, a tenth or more of the orders found is "
+            "what accelerates, and the table leaves that: --inertia gives it",
+            of->inertia_limit_kgm2);
+}
+
 static void append_of_sign(cli_tuning *t)
 {
     double deg;
@@ -191,6 +202,7 @@ static void append_of_machine(cli_tuning *t)
 {
     char words[512];
     append_of_inertia(t);
+    append_of_untold_inertia(t);
     if (t->is_solved && cli_tune_is_without_angle(t))
         cli_tune_caveat(
             t, "No log has an angle: the table begins where the back-EMF of phase a rises through zero, "

@@ -254,11 +254,24 @@ static void take_inertia(const task *t, inertia of)
     accelerate_by_orders(t, of.kgm2);
 }
 
-/* Beside a load, whose ripple differs forward and back too, turns do not tell the inertia. */
+#define SLOWEST_STOP 20.0 /* rad/s², of a shaft without a load by its own friction and cogging torque */
+
+/* About the most that the current makes. */
+static double made_Nm(const task *t)
+{
+    double most_A = 0.0;
+    for (size_t k = 0; k < 3 * t->run->count; ++k)
+        most_A = fmax(most_A, fabs(t->run->i_A[k]));
+    return t->options->torque_constant_Nm_per_A * most_A;
+}
+
+/* What turns do not tell: beside a load, whose ripple differs forward and back too, whatever it is; without
+ * one up to what friction and cogging torque would hardly stop. */
 static void set_limit(const task *t)
 {
     const double limit_kgm2 = hci_balance_limit(&t->ways, t->options->torque_constant_Nm_per_A);
-    if (t->run->mean_is_unknown && !t->run->is_unsteady && isfinite(limit_kgm2))
+    if (t->run->is_unsteady || !isfinite(limit_kgm2)) return;
+    if (t->run->mean_is_unknown || limit_kgm2 < made_Nm(t) / SLOWEST_STOP)
         t->run->inertia_limit_kgm2 = limit_kgm2;
 }
 
@@ -508,16 +521,16 @@ static hci_status share_inertia(hci_run *runs, size_t count, const hci_run_optio
     return status;
 }
 
-/* A load beside which nothing told it. */
+/* Where nothing told it. */
 static void say_limits(hci_run *runs, size_t count)
 {
     for (size_t k = 0; k < count; ++k)
         if (runs[k].inertia_limit_kgm2 > 0.0)
             hci_note_add(&runs[k].remark,
-                         "the inertia is not known, and beside a load the turns do not tell it: with %.2g "
+                         "the inertia is not known, and %sthe turns do not tell it: with %.2g "
                          "kg·m² of rotor and what turns with it a tenth of what varies in the current "
                          "accelerates",
-                         runs[k].inertia_limit_kgm2);
+                         runs[k].mean_is_unknown ? "beside a load " : "", runs[k].inertia_limit_kgm2);
 }
 
 static hci_status join(hci_run *runs, size_t count, const hci_run_options *options, hci_note *note)

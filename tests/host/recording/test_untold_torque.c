@@ -292,24 +292,38 @@ static void test_runs_that_lack_an_inertia(void)
     }
 }
 
-/* Beside a load that is steady. */
+/* Beside a load that is steady, and without one up to what its most current would stop within a second from
+ * 20 rad/s. */
 static void test_where_a_limit_is_set(void)
 {
+    static const struct {
+        bool load, unsteady;
+        double most_A, limit_kgm2;
+    } c[] = {{true, false, 0.3, 1e-3}, /* a tenth of 0.2·0.5 N·m over 10 rad/s² */
+             {true, true, 0.3, 0.0},
+             {false, false, 0.09, 0.0},
+             {false, false, 0.11, 1e-3},
+             {false, true, 0.11, 0.0}};
     order[0][6].iq_A = (hci_way_wave){0.3, 0.4, 0.0, true};
     order[0][6].time_s.stands_out = true;
     order[0][6].alpha_sine = 6.0, order[0][6].alpha_cosine = 8.0;
     seen[0][0] = 6;
     t.ways.way[0].count = 1;
-    for (int which = 0; which < 3; ++which) {
+    for (size_t k = 0; k < sizeof c / sizeof *c; ++k) {
         make(10, 10);
-        run.mean_is_unknown = which != 1;
-        run.is_unsteady = which == 2;
-        set_limit(&t); /* a tenth of 0.2·0.5 N·m over 10 rad/s² */
-        TEST_ASSERT_DOUBLE_WITHIN(1e-12, which == 0 ? 0.1 * 0.2 * 0.5 / 10.0 : 0.0, run.inertia_limit_kgm2);
+        run.i_A[7] = -c[k].most_A;
+        run.mean_is_unknown = c[k].load;
+        run.is_unsteady = c[k].unsteady;
+        set_limit(&t);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, c[k].limit_kgm2, run.inertia_limit_kgm2);
     }
     say_limits(&run, 1);
     TEST_ASSERT_EQUAL_STRING("", run.remark.text);
     run.inertia_limit_kgm2 = 1e-3;
+    say_limits(&run, 1);
+    text_has("the inertia is not known, and the turns do not tell it: with 0.001 kg·m² of rotor",
+             run.remark.text);
+    run.mean_is_unknown = true;
     say_limits(&run, 1);
     text_has("beside a load the turns do not tell it: with 0.001 kg·m² of rotor", run.remark.text);
 }

@@ -71,7 +71,7 @@ typedef struct {
                             * by its two directions, a free shaft by what its current
                             * accelerates, by the torque constant; 0: they do not */
     bool denies_inertia;   /* the declared one is far from that: the torques are wrong by what accelerates */
-    double inertia_limit_kgm2; /* a slow turn against a load whose inertia is not known: from here on it takes
+    double inertia_limit_kgm2; /* a slow turn whose inertia is not known: from here on it takes
                                 * a tenth or more of the torque that the current makes; 0: it does not matter,
                                 * or is known */
     bool needs_inertia; /* a slow turn of which the current answers a part that only the inertia tells: it has
