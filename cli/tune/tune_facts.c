@@ -170,6 +170,28 @@ static bool has_one_speed(const cli_tuning *t)
     return is_one_speed(&s[0]) && is_one_speed(&s[1]);
 }
 
+/* Of steady parts that a torque sensor has measured in time; electrical. */
+static double fastest_rad_per_s(const cli_tuning *t)
+{
+    range_of_speeds s = {HUGE_VAL, -HUGE_VAL};
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        if (r->torque_source == HCI_TORQUE_MEASURED && r->time_s && r->speed_rad_per_s) add_speeds(r, &s);
+    }
+    return s.least > s.most ? 0.0 : t->declared.model.pole_pairs * fmax(fabs(s.least), fabs(s.most));
+}
+
+double cli_tune_late_Nm_per_s(const cli_tuning *t)
+{
+    const double speed_rad_per_s = fastest_rad_per_s(t);
+    double square = 0.0;
+    for (size_t k = 0; k < t->solution.order_count; ++k) {
+        const hci_harmonic *x = &t->solution.order[k].before_Nm;
+        square += pow(x->order * speed_rad_per_s * hci_amplitude(x->sine, x->cosine), 2.0);
+    }
+    return 2.0 * sqrt(square);
+}
+
 bool cli_tune_lacks_times(const cli_tuning *t)
 {
     for (size_t k = 0; k < t->runs.count; ++k)

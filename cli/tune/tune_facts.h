@@ -18,7 +18,6 @@ double cli_tune_reach_of_slopes(const cli_tuning *tune);
 /* Whether the sign of a current is all that a torque is told by, and nothing tells it. */
 bool cli_tune_lacks_sign(const cli_tuning *tune);
 
-/* Whether nothing in the recordings counts the pole pairs that were given. */
 /* Whether the angle of all recordings that show a torque is one of the electrical turn alone. */
 bool cli_tune_is_electrical_alone(const cli_tuning *tune);
 
@@ -30,11 +29,17 @@ bool cli_tune_is_without_angle(const cli_tuning *tune);
  * with which they do, or half an electrical turn more. */
 bool cli_tune_off_iq(const cli_tuning *tune, double *offset_deg);
 
+/* Whether nothing in the recordings counts the pole pairs that were given. */
 bool cli_tune_is_uncounted(const cli_tuning *tune);
 
 /* Whether the bound is of recordings at one speed or without a time, which do not tell a torque sensor that
  * reads late. */
 bool cli_tune_hangs_on_lag(const cli_tuning *tune);
+
+/* What a delay of the torque sensor, of its filter or its logger leaves of the ripple of a plain sine, in the
+ * mean of ways in which orders fall together, peak to peak, for each second of it, as long as that is little
+ * beside a period; 0: no recording of one has a time. */
+double cli_tune_late_Nm_per_s(const cli_tuning *tune);
 
 /* Whether no recording of a torque sensor has a time. */
 bool cli_tune_lacks_times(const cli_tuning *tune);

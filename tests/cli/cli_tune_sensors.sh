@@ -62,15 +62,16 @@ says 'are for orders that|orders that the recordings'
 for load in 0.3 0.6 1; do
     awk -F, -v OFS=, 'NR > 1 { $6 *= 1.04 } 1' "one$load.csv" >"more$load.csv"
 done
-run 0 tune open.csv more0.3.csv more0.6.csv more1.csv $motor -o more
-says '^  - The torque per ampere is (4|3\.[89]|4\.[01]) % more than --flux makes: stronger or colder magnets, or a gain of the torque sensor .* smaller than said\. Voltages of the open machine tell the magnets$'
+awk -F, -v OFS=, 'NR > 1 { $4 *= 1.04 } 1' open.csv >more_open.csv
+run 0 tune more_open.csv more0.3.csv more0.6.csv more1.csv $motor -o more
+says '^  - The torque per ampere is 4 % more than --flux makes: stronger or colder magnets, or a gain of the torque sensor .* smaller than said\. Voltages of the open machine tell the magnets$'
 check "a load at i_d = 0 is asked for beside three" [ "$(grep -c 'i_d = 0\|reluctance torque where' stdout)" = 0 ]
 for load in 0.3 0.6 1; do
     awk -F, -v OFS=, 'NR > 1 { $6 *= 0.94 } 1' "one$load.csv" >"less$load.csv"
 done
-# one way round, a part of it may be of iron that saturates or brakes, which is said to be open
-run 1 tune open.csv less0.3.csv less0.6.csv less1.csv $motor -o less
-says '^  - The torque per ampere is (6|5\.[4-9]|6\.[01]) % less than --flux makes: weaker or warmer magnets, or a gain of the torque sensor .* larger than said\. Voltages of the open machine tell the magnets$'
+awk -F, -v OFS=, 'NR > 1 { $4 *= 0.94 } 1' open.csv >less_open.csv
+run 0 tune less_open.csv less0.3.csv less0.6.csv less1.csv $motor -o less
+says '^  - The torque per ampere is 6 % less than --flux makes: weaker or warmer magnets, or a gain of the torque sensor .* larger than said\. Voltages of the open machine tell the magnets$'
 check "a sensor is named alone" [ "$(cat more/summary.json less/summary.json | grep -c 'torque sensor shows')" -eq 0 ]
 check "a scale where there is none" [ "$(grep -c 'torque per ampere is' off/summary.json)" -eq 0 ]
 
@@ -90,6 +91,7 @@ for load in 0 0.5 1; do slow_log "slow$load.csv" $load "1$load"; done
 run 1 tune slow0.csv slow0.5.csv slow1.csv $motor -o slow
 check "a lag at one speed" [ "$(grep -c '^torque_sensor,time_constant' slow/diagnose/machine/effects.csv)" -eq 0 ]
 says 'order 12: 0\.00(59|60)[0-9]* ± ' 'if the torque sensor is in time, which one speed does not tell' '^  ripple, peak to peak, N·m .* at most .* if the torque sensor is in time$'
+says '^  - Each 1 ms that the torque is late .* leaves some 0\.0023 N·m' # 2 √(Σ (order × π rad/s × amplitude)²): 0.006 at 60, 0.002 at 30 and 10
 
 # ---- gains that one load does not tell from the back-EMF are no instruction to the drive; a second load tells them
 

@@ -75,10 +75,29 @@ static void append_of_constant(cli_tuning *t)
             t->reading.run.torque_constant_Nm_per_A, cli_tune_constant_option(t));
 }
 
+#define LITTLE_OF 0.3 /* of a ripple, that a delay leaves as long as it is little */
+
+/* What the promise hangs on, in figures: a millisecond, or a tenth of one where that is much. */
+static void append_of_lag(cli_tuning *t)
+{
+    double before_Nm, after_Nm, late_s = 1e-3;
+    const double late_Nm_per_s = cli_tune_late_Nm_per_s(t);
+    if (!cli_tune_hangs_on_lag(t) || !(late_Nm_per_s > 0.0)) return;
+    hci_tuning_swing(&t->solution, &before_Nm, &after_Nm);
+    while (late_s > 1e-6 && late_Nm_per_s * late_s > LITTLE_OF * before_Nm)
+        late_s *= 0.1;
+    cli_tune_caveat(
+        t,
+        "Each %.2g ms that the torque is late beside the angle, by its sensor, a filter or a logger "
+        "of its own, leaves some %.2g N·m beside what is promised",
+        1e3 * late_s, late_Nm_per_s * late_s);
+}
+
 /* What the recordings do not tell of the torque. */
 static void append_of_torque(cli_tuning *t)
 {
     char order[CLI_TUNE_ORDER];
+    append_of_lag(t);
     if (cli_tune_reach_of_slopes(t) > 0.0)
         cli_tune_caveat(t, "These recordings do not show cogging torque above order %.3g",
                         cli_tune_reach_of_slopes(t));

@@ -204,18 +204,47 @@ static bool are_one_sided(const hci_binned_samples *samples, const bool *use)
     return !(drives && brakes);
 }
 
-/* Whether the shaft turned forward and back under load. */
+/* Loads of one direction: how many that differ, of at most two. */
+typedef struct {
+    double current_A[2];
+    size_t count;
+} loads;
+
+static bool is_alike(double one_A, double other_A)
+{
+    return fabs(one_A - other_A) < SIMILAR * fmax(one_A, other_A);
+}
+
+static void load_add(loads *x, double current_A)
+{
+    if (x->count < 2 && !(x->count == 1 && is_alike(x->current_A[0], current_A)))
+        x->current_A[x->count++] = current_A;
+}
+
+static bool has_alike(const loads *x, double current_A)
+{
+    bool any = false;
+    for (size_t k = 0; k < x->count; ++k)
+        any = any || is_alike(x->current_A[k], current_A);
+    return any;
+}
+
+/* Whether the shaft turned forward and back under load, so that what the direction turns is told from what is
+ * curved over the current: at the same current, or at two in each direction. */
 static bool are_loaded_both_ways(const hci_binned_samples *samples, const bool *use)
 {
     const double most_A = largest_current_A(samples, use);
-    bool ahead = false, back = false;
+    loads ahead = {.count = 0}, back = {.count = 0};
     for (size_t r = 0; r < samples->run_count; ++r) {
         const hci_run_statistics *f = &samples->statistics[r];
         if (!use[r] || !(f->current_A > LEAST_LOAD * most_A)) continue;
-        ahead = ahead || f->both_ways || f->mean_speed_rad_per_s > 0.0;
-        back = back || f->both_ways || f->mean_speed_rad_per_s < 0.0;
+        if (f->both_ways || f->mean_speed_rad_per_s > 0.0) load_add(&ahead, f->current_A);
+        if (f->both_ways || f->mean_speed_rad_per_s < 0.0) load_add(&back, f->current_A);
     }
-    return ahead && back;
+    bool paired = ahead.count == 2 && back.count == 2;
+    for (size_t k = 0; k < ahead.count; ++k)
+        paired = paired || has_alike(&back, ahead.current_A[k]);
+    return paired;
 }
 
 static hci_effect_survey survey_of(const hci_candidates_source *s)

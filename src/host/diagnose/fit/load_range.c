@@ -8,6 +8,8 @@
 
 enum { DIRECTIONS = 32 }; /* of the plane of currents: a corner is missed by 1 - cos(π/32), half a percent */
 
+#define LOAD    0.1 /* of the largest current, that a load has */
+#define ALIKE   (5.0 * HCI_PI / 180.0)
 #define OUTSIDE 0.1 /* of the largest current */
 #define EVEN    0.9 /* of the current, that its mean is where there is one load all along */
 
@@ -51,6 +53,22 @@ bool hci_run_is_beyond(const hci_regression *e, size_t run)
     for (int k = 0; k < DIRECTIONS; ++k)
         further = fmax(further, further_A(e, run, 2.0 * HCI_PI * k / DIRECTIONS));
     return further > OUTSIDE * most_A;
+}
+
+double hci_load_lead_rad(const hci_regression *e)
+{
+    const hci_run_statistics *x = e->samples->statistics;
+    double most_A = 0.0, lead_rad = NAN;
+    for (size_t r = 0; r < e->samples->run_count; ++r)
+        if (e->use[r]) most_A = fmax(most_A, x[r].current_A);
+    for (size_t r = 0; r < e->samples->run_count; ++r) {
+        if (!e->use[r] || !(x[r].current_A > LOAD * most_A)) continue;
+        const double own_rad = atan2(-x[r].mean_id_A, x[r].mean_iq_A);
+        if (!has_place(&x[r]) || fabs(remainder(own_rad - lead_rad, 2.0 * HCI_PI)) > ALIKE)
+            return (double)NAN;
+        if (isnan(lead_rad)) lead_rad = own_rad;
+    }
+    return lead_rad;
 }
 
 size_t hci_asked_count(bool *beyond, size_t count)

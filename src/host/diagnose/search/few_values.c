@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "host/diagnose/candidates/modelled_gain.h"
+#include "host/diagnose/fit/load_range.h"
 #include "host/diagnose/search/belief.h"
 #include "host/diagnose/search/forward.h"
 #include "host/diagnose/search/stability.h"
@@ -103,6 +104,17 @@ static double turned_by_rad(const hci_search *s, const hci_candidates *model)
                  wave[0] * declared[0] + wave[1] * declared[1]);
 }
 
+#define ALONG_Q (5.0 * HCI_PI / 180.0)
+
+/* Whether a saliency would turn the torque as well: all loads lie along one direction, which is not q, and
+ * would not be with another zero, as where the drive keeps its i_d at 0. */
+static bool is_saliency_as_well(const hci_search *s, const hci_candidates *model)
+{
+    const double lead_rad = hci_load_lead_rad(s->regression);
+    return fabs(remainder(lead_rad, HCI_PI)) > ALONG_Q &&
+           fabs(remainder(lead_rad + turned_by_rad(s, model), HCI_PI)) > ALONG_Q;
+}
+
 /* The model with a zero of the angle in place of a back-EMF that differs, and of a cogging torque unless it
  * stays. */
 static hci_status turned_make(hci_search *s, const hci_fitted_model *model, bool cogging_stays,
@@ -156,7 +168,7 @@ hci_status hci_search_angle_zero(hci_search *s, hci_fitted_model *model, bool *c
     *changed = false;
     if (turned_by_rad(s, &model->candidates) == 0.0 || s->no_current ||
         hci_candidates_lack_angle(e->runs, e->use, e->samples->run_count) ||
-        hci_candidates_have(&model->candidates, angle_zero()))
+        hci_candidates_have(&model->candidates, angle_zero()) || is_saliency_as_well(s, &model->candidates))
         return HCI_OK;
     for (int stays = 0; stays < 2 && !*changed && !status; ++stays)
         status = turned_try(s, model, stays, changed, note);

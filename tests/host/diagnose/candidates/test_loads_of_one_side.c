@@ -1,4 +1,5 @@
-/* Whether all loads have an i_q of one sign, and whether recordings have an angle at all. */
+/* Whether all loads have an i_q of one sign, or both directions like loads, and whether recordings have an
+ * angle at all. */
 #include "host/diagnose/candidates/make_candidates.c"
 
 #include "unity.h"
@@ -58,6 +59,36 @@ static void test_loads_of_one_sign(void)
         }
 }
 
+/* Both directions at the same current, or two currents in each: at one current here and another there what
+ * the direction turns is not told from what is curved over the current. */
+static void test_loads_of_both_directions(void)
+{
+    static const struct {
+        double current_A[4], speed_rad_per_s[4];
+        bool both;
+    } c[] = {{{5.0, 10.0, 8.0, 0.0}, {6.0, 6.0, -6.0, -6.0}, false},
+             {{5.0, 10.0, 9.0, 0.0}, {6.0, 6.0, -6.0, -6.0}, true},
+             {{5.0, 10.0, 9.0, 0.0}, {6.0, 6.0, 6.0, -6.0}, false},
+             {{5.0, 10.0, 8.0, 7.0}, {6.0, 6.0, -6.0, -6.0}, false}, /* 8 and 7 are alike */
+             {{5.0, 10.0, 8.0, 6.5}, {6.0, 6.0, -6.0, -6.0}, true},
+             {{5.0, 5.5, 8.0, 6.5}, {6.0, 6.0, -6.0, -6.0}, false},
+             {{10.0, 0.9, 0.9, 0.0}, {6.0, 6.0, -6.0, -6.0}, false}}; /* next to none */
+    hci_run_statistics of[4];
+    hci_binned_samples four = {.run_count = 4, .statistics = of};
+    bool used[4] = {true, true, true, true};
+    for (size_t k = 0; k < sizeof c / sizeof *c; ++k) {
+        for (size_t r = 0; r < 4; ++r)
+            of[r] = (hci_run_statistics){.current_A = c[k].current_A[r],
+                                         .mean_speed_rad_per_s = c[k].speed_rad_per_s[r]};
+        TEST_ASSERT_EQUAL(c[k].both, are_loaded_both_ways(&four, used));
+    }
+    of[0].both_ways = true;
+    TEST_ASSERT_TRUE(are_loaded_both_ways(&four, used));
+    of[1].current_A = of[2].current_A = 0.0;
+    used[0] = false;
+    TEST_ASSERT_FALSE(are_loaded_both_ways(&four, used));
+}
+
 /* Means over a turn alone have none; one recording in use with an angle is enough. */
 static void test_recordings_without_an_angle(void)
 {
@@ -77,6 +108,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_the_largest_current);
     RUN_TEST(test_loads_of_one_sign);
+    RUN_TEST(test_loads_of_both_directions);
     RUN_TEST(test_recordings_without_an_angle);
     return UNITY_END();
 }

@@ -1,4 +1,4 @@
-/* Which runs have loads that the others do not reach. */
+/* Which runs have loads that the others do not reach, and whether all lie along one direction. */
 #include "host/diagnose/fit/load_range.h"
 
 #include <math.h>
@@ -94,6 +94,39 @@ static void test_loads_that_vary(void)
     TEST_ASSERT_FALSE(beyond(1));
 }
 
+/* i_d = -I sin, i_q = I cos of the lead. */
+static void add_at(double lead_deg, double most_A)
+{
+    const double lead_rad = lead_deg * acos(-1.0) / 180.0;
+    add(-most_A * sin(lead_rad), most_A * cos(lead_rad));
+}
+
+/* Of all loads in use; what is next to no load has no say, nor has one that varies a direction. */
+static void test_the_direction_of_all_loads(void)
+{
+    TEST_ASSERT_TRUE(isnan(hci_load_lead_rad(&regression)));
+    add(0.09, 0.0);
+    add_at(25.0, 1.0);
+    add_at(29.0, 0.5);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 25.0 * acos(-1.0) / 180.0, hci_load_lead_rad(&regression));
+    add_at(18.0, 0.7);
+    TEST_ASSERT_TRUE(isnan(hci_load_lead_rad(&regression)));
+    use[3] = false;
+    TEST_ASSERT_FALSE(isnan(hci_load_lead_rad(&regression)));
+    add_at(25.0 + 180.0, 0.7);
+    TEST_ASSERT_TRUE(isnan(hci_load_lead_rad(&regression)));
+    use[4] = false;
+    statistics[2].current_A = 0.6;
+    TEST_ASSERT_TRUE(isnan(hci_load_lead_rad(&regression)));
+}
+
+static void test_directions_on_both_sides_of_half_a_turn(void)
+{
+    add_at(178.0, 1.0);
+    add_at(-179.0, 1.0);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 178.0 * acos(-1.0) / 180.0, hci_load_lead_rad(&regression));
+}
+
 static void test_three_are_asked_at_least(void)
 {
     bool marked[5] = {true, false, false, true, false};
@@ -110,6 +143,8 @@ int main(void)
     RUN_TEST(test_the_smallest_and_the_opposite);
     RUN_TEST(test_a_square_of_loads);
     RUN_TEST(test_loads_that_vary);
+    RUN_TEST(test_the_direction_of_all_loads);
+    RUN_TEST(test_directions_on_both_sides_of_half_a_turn);
     RUN_TEST(test_three_are_asked_at_least);
     return UNITY_END();
 }

@@ -76,6 +76,32 @@ static void test_the_angle_of_turned_waves(void)
     }
 }
 
+/* A load that leads the q axis by 0.4 rad and a back-EMF that is turned. */
+static bool as_well(double turned_rad, double other_lead_rad)
+{
+    hci_run_statistics statistics[2] = {
+        {.mean_id_A = -sin(0.4), .mean_iq_A = cos(0.4), .current_A = 1.0},
+        {.mean_id_A = -sin(other_lead_rad), .mean_iq_A = cos(other_lead_rad), .current_A = 1.0}};
+    bool use[2] = {true, true};
+    hci_binned_samples samples = {.run_count = 2, .statistics = statistics};
+    setUp();
+    regression.samples = &samples;
+    regression.use = use;
+    add("back_emf", "sine", 1.0, 0.2 * cos(turned_rad) + 0.1 * sin(turned_rad) - 0.2);
+    add("back_emf", "cosine", 1.0, 0.1 * cos(turned_rad) - 0.2 * sin(turned_rad) - 0.1);
+    return is_saliency_as_well(&search, &model);
+}
+
+/* Not where the current lies along q by the zero that was found, as a drive has it, and not where it has more
+ * directions than one. */
+static void test_where_a_saliency_turns_as_well(void)
+{
+    TEST_ASSERT_TRUE(as_well(-0.2, 0.4));
+    TEST_ASSERT_TRUE(as_well(0.2, 0.4));
+    TEST_ASSERT_FALSE(as_well(-0.4, 0.4));
+    TEST_ASSERT_FALSE(as_well(-0.2, -0.4));
+}
+
 static void test_what_magnets_make(void)
 {
     TEST_ASSERT_TRUE(is_of_magnets(type("cogging")) && is_of_magnets(type("back_emf")));
@@ -166,6 +192,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_the_declared_fundamental);
     RUN_TEST(test_the_angle_of_turned_waves);
+    RUN_TEST(test_where_a_saliency_turns_as_well);
     RUN_TEST(test_what_magnets_make);
     RUN_TEST(test_how_late_a_channel_is);
     RUN_TEST(test_prices_are_summed);
