@@ -374,7 +374,7 @@ static void compact_rows(hci_run *run, const bool *out)
     run->count = kept;
 }
 
-static void keep(hci_run *run, const bool *out)
+void hci_run_rows_leave(hci_run *run, const bool *out)
 {
     double *const one[] = {run->time_s, run->theta_m_rad, run->speed_rad_per_s, run->torque_Nm,
                            run->temperature_C};
@@ -418,7 +418,7 @@ bool hci_settled_rows_keep(hci_run *run, int pole_pairs)
     if (x.waiting + x.others > 0) {
         run->swept_rad = range_of(run->theta_m_rad, run->count);
         say(&x, run->count, &run->remark);
-        keep(run, x.out);
+        hci_run_rows_leave(run, x.out);
     }
     hci_memory_free(x.out);
     return true;
@@ -458,7 +458,7 @@ bool hci_rest_at_ends_leave(hci_run *run)
     if (out == NULL) return false;
     for (size_t k = 0; k < n; ++k)
         out[k] = k < first || k >= n - last;
-    keep(run, out);
+    hci_run_rows_leave(run, out);
     hci_note_add(&run->remark,
                  "%zu of %zu rows, in which the shaft stands before or after it runs, are not used",
                  first + last, n);

@@ -45,6 +45,9 @@ bool hci_row_direction_set(hci_run *run);
  * False: no memory. O(samples). */
 bool hci_settled_rows_keep(hci_run *run, int pole_pairs);
 
+/* Leaves the rows out that are marked. out: [count]. */
+void hci_run_rows_leave(hci_run *run, const bool *out);
+
 /* Leaves rows out of a free shaft, and says how many, in which it stands before it runs or after: within
  * eight times the noise of the angle of where it stands, but for those that slopes of the others need.
  * Nothing where hardly any would be left. False: no memory. O(samples). */

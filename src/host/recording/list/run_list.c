@@ -15,6 +15,7 @@
 #include "host/base/quote.h"
 #include "host/csv/table.h"
 #include "host/recording/computed_torque.h"
+#include "host/recording/list/torque_clock.h"
 #include "host/recording/run_columns.h"
 #include "host/recording/untold_torque.h"
 
@@ -343,6 +344,7 @@ hci_status hci_runs_read(const char *path, const hci_runs_options *options, hci_
         status = refuse_absent(&l, status);
     if (!status) hci_torques_typed_leave(runs->run, runs->count);
     if (!status) hci_torques_at_one_end_tell(runs->run, runs->count);
+    if (!status) status = hci_torque_clock_align(runs->run, runs->count, note);
     if (!status) status = hci_estimated_torques_leave(runs->run, runs->count, &options->run, note);
     if (!status) status = hci_untold_torques_join(runs->run, runs->count, &options->run, note);
     hci_memory_free(l.run.columns_found);
