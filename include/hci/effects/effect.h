@@ -161,16 +161,17 @@ typedef struct {
     const hci_machine *machine; /* declared */
     bool timed;                 /* a run has time and speed */
     bool moving;                /* the shaft turned */
-    bool loaded_both_ways;      /* under load in one run forward, in one backward */
-    bool one_sided;       /* all loads have an i_q of one sign, of which none tells what of the mean torque
-                           * keeps its sign with the load */
-    bool has_temperature; /* of the magnets, which changes */
-    bool has_turn;        /* the angle tells where in the mechanical turn the rotor was */
-    bool has_neutral;     /* the phases may carry the same current all at once */
-    bool creeps;          /* in a run the mean torque of a turn rises or falls from turn to turn */
-    double duration_s;    /* of the longest run with time */
-    size_t speeds;        /* how many different ones, at most 3 */
-    double torque_Nm;     /* largest rms of a run */
+    bool loaded_both_ways; /* under load in one run forward, in one backward, at alike loads or two each */
+    bool constant_told;    /* mean torques tell the torque per ampere beside friction and a sensor's zero */
+    bool one_sided;        /* all loads have an i_q of one sign, of which none tells what of the mean torque
+                            * keeps its sign with the load */
+    bool has_temperature;  /* of the magnets, which changes */
+    bool has_turn;         /* the angle tells where in the mechanical turn the rotor was */
+    bool has_neutral;      /* the phases may carry the same current all at once */
+    bool creeps;           /* in a run the mean torque of a turn rises or falls from turn to turn */
+    double duration_s;     /* of the longest run with time */
+    size_t speeds;         /* how many different ones, at most 3 */
+    double torque_Nm;      /* largest rms of a run */
     double acceleration_rad_per_s2; /* largest rms of a run with a torque sensor */
     double current_A;               /* largest rms length of a run's current vector */
     double along_d_A;               /* largest mean i_d of a run, either way */
