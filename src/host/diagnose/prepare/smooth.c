@@ -284,21 +284,21 @@ typedef struct {
     hci_normal_equations normal;
 } series_workspace;
 
-/* Replaces one coordinate by its series. Returns the mean square of what that takes away. */
-static double series_put(series_workspace *r, size_t n, double *coordinate)
+/* The mean square of what the series leaves of a coordinate. */
+static double series_left(const series_workspace *r, size_t n, const double *coordinate)
 {
     const size_t columns = r->normal.n;
     double square = 0.0;
     for (size_t k = 0; k < n; ++k) {
-        const double smooth = series_at(r->rows + k * columns, r->coefficients, columns);
-        square += (coordinate[k] - smooth) * (coordinate[k] - smooth);
-        coordinate[k] = smooth;
+        const double left = coordinate[k] - series_at(r->rows + k * columns, r->coefficients, columns);
+        square += left * left;
     }
     return square / (double)n;
 }
 
-/* An order that is as large as noise makes it says nothing of how fast the current changes: it leaves the
- * coefficients. */
+/* An order that is as large as noise makes it says nothing of the current, nor of how fast it changes: it
+ * leaves the coefficients. What is left of the noise would be explained by a torque that does not go with the
+ * current, as where iron saturates. */
 static void noise_leave(series_workspace *r, size_t n, double variance)
 {
     const double most = BY_CHANCE * 4.0 * variance / (double)n;
@@ -315,8 +315,9 @@ static bool coordinate_smooth(series_workspace *r, size_t n, const size_t *perio
         for (size_t c = 0; c < columns; ++c)
             r->normal.moment[c] += r->rows[k * columns + c] * coordinate[k];
     if (!series_fit(&r->normal, r->factor, r->coefficients)) return false;
-    noise_leave(r, n, series_put(r, n, coordinate));
+    noise_leave(r, n, series_left(r, n, coordinate));
     for (size_t k = 0; k < n; ++k) {
+        coordinate[k] = series_at(r->rows + k * columns, r->coefficients, columns);
         slopes_at(r->rows + k * columns, r->coefficients, periods, columns / 2, &r->slope[axis][k],
                   &r->curvature[axis][k]);
         r->slopes += r->slope[axis][k] * r->slope[axis][k];

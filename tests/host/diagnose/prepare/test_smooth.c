@@ -175,34 +175,37 @@ static double current_error(bool raw)
     return square;
 }
 
-/* 21 orders of the turn, electrical ones to 24 and the mean: 77 coefficients of MOST samples keep that share
- * of the variance, 2/3 of that of a phase. 49 without a turn. */
+enum { TRIALS = 20 };
+
+/* The mean, order 6 and once a turn are there: 5 coefficients of each coordinate keep that share of the
+ * variance, 2/3 of that of a phase, of MOST samples; 3 without a turn. The others of 77 or 49 are noise, and
+ * leave. */
 static void test_noise_of_currents(void)
 {
     for (int turns = 0; turns < 2; ++turns) {
-        const double variance = 0.05 * 0.05 * 2.0 / 3.0, share = (turns ? 77.0 : 49.0) / MOST;
+        const double variance = 0.05 * 0.05 * 2.0 / 3.0, share = (turns ? 5.0 : 3.0) / MOST;
         double before = 0.0, after = 0.0;
         once = turns;
-        for (int k = 0; k < 5; ++k) {
+        for (int k = 0; k < TRIALS; ++k) {
             turn(MOST, 400.0, 50.0, 0.0, 0.0);
             flow(0.05);
             run.turn_known = turns;
             reduce();
-            before += current_error(true) / 5.0;
-            after += current_error(false) / 5.0;
+            before += current_error(true) / TRIALS;
+            after += current_error(false) / TRIALS;
         }
         TEST_ASSERT_DOUBLE_WITHIN(0.03 * variance, variance, before);
-        TEST_ASSERT_DOUBLE_WITHIN(0.2 * share * variance, share * variance, after); /* of 490: ± 6 % */
+        TEST_ASSERT_DOUBLE_WITHIN(0.3 * share * variance, share * variance, after); /* of 120: ± 13 % */
     }
 }
 
-/* 36.3 samples in a turn resolve 17 of its orders: 35 coefficients. Higher ones, which they show as lower,
- * would take more of the noise. */
+/* 36.3 samples in a turn resolve 17 of its orders. Higher ones, which they show as lower, would take more of
+ * the noise; of a constant current its mean alone is there. */
 static void test_orders_that_samples_do_not_resolve(void)
 {
-    const double variance = 0.05 * 0.05 * 2.0 / 3.0, share = 35.0 / MOST;
+    const double variance = 0.05 * 0.05 * 2.0 / 3.0, share = 1.0 / MOST;
     double square = 0.0;
-    for (int trial = 0; trial < 5; ++trial) {
+    for (int trial = 0; trial < TRIALS; ++trial) {
         turn(MOST, 36.3, 50.0, 0.0, 0.0);
         for (size_t k = 0; k < 3 * run.count; ++k)
             run.i_A[k] += 0.05 * ref_normal(&seed);
@@ -211,10 +214,10 @@ static void test_orders_that_samples_do_not_resolve(void)
         for (size_t k = 0; k < binned.count; ++k) {
             double d, q;
             rec_rotor(binned.sample[k].reading.i_abc, P * binned.sample[k].raw.theta_m_rad, &d, &q);
-            square += 0.5 * (d * d + (q - 3.0) * (q - 3.0)) / (double)binned.count / 5.0;
+            square += 0.5 * (d * d + (q - 3.0) * (q - 3.0)) / (double)binned.count / TRIALS;
         }
     }
-    TEST_ASSERT_DOUBLE_WITHIN(0.2 * share * variance, share * variance, square); /* of 350: ± 8 % */
+    TEST_ASSERT_DOUBLE_WITHIN(0.5 * share * variance, share * variance, square); /* of 40: ± 22 % */
 }
 
 /* In samples as they are, and in the mean of turns at angles that differ. */
