@@ -64,14 +64,35 @@ cli_tune_cover cli_tune_cover_of(const hci_run *r)
     return x;
 }
 
+/* Whether the samples of a run are all that tells orders: in time, or at places all round. */
+static bool tells_orders(const hci_run *r, const cli_tune_cover *x)
+{
+    if (r->time_s) return r->torque_source != HCI_TORQUE_NONE || r->v_V;
+    return r->torque_source == HCI_TORQUE_MEASURED && r->turn_known && x->turns >= WHOLE;
+}
+
+/* Where no samples show it: an order of slots and poles above what measured torques tell looks like a lower
+ * one. */
+static void set_alias(cli_tuning *t)
+{
+    const double slots = cli_tune_order_of_slots(t);
+    bool is_measured = t->runs.count > 0;
+    for (size_t k = 0; k < t->runs.count; ++k)
+        is_measured = is_measured && t->runs.run[k].torque_source == HCI_TORQUE_MEASURED;
+    if (!is_measured || !(t->highest_order > 0.0) || !(slots > t->highest_order) ||
+        cli_tune_has_high_slots(t))
+        return;
+    t->cogging_reach = t->highest_order;
+    t->has_alias = true;
+}
+
 void cli_tune_cover_set(cli_tuning *t)
 {
     double turns = 0.0, order = 0.0;
     for (size_t k = 0; k < t->runs.count; ++k) {
         const hci_run *r = &t->runs.run[k];
-        const bool tells = r->time_s && (r->torque_source != HCI_TORQUE_NONE || r->v_V);
         const cli_tune_cover x = cli_tune_cover_of(r);
-        if (!tells) continue;
+        if (!tells_orders(r, &x)) continue;
         turns = fmax(turns, x.turns);
         order = fmax(order, x.highest_order);
     }
@@ -79,6 +100,7 @@ void cli_tune_cover_set(cli_tuning *t)
     t->highest_order = order;
     t->tells_no_order =
         turns * t->declared.model.pole_pairs >= LEAST_ARC && turns * t->declared.model.pole_pairs < WHOLE;
+    set_alias(t);
 }
 
 bool cli_tune_is_short(const cli_tuning *t)

@@ -55,6 +55,20 @@ says 'Orders above 10.4 were not looked at'
 check "the readings in a turn" grep -q '865 samples, .*, 86.[4-6] samples a turn' held/summary.json
 check "a bound of what a held torque does not show" [ "$(grep -c '(95 %)' "$work/stdout")" -eq 0 ]
 
+# ---- a torque at places all round, without a time: 264 a turn of 24 slots and 22 poles look like 64 at 200 of them
+
+places() { # FILE PLACES
+    awk -v n="$2" 'BEGIN { srand(8); print "theta_m_deg,torque_Nm"; turn = 6.283185307179586
+        for (k = 0; k < n; ++k) printf "%.4f,%.6f\n", 360 * k / n, 0.01 * sin(264 * turn * k / n) + 0.03 * sin(24 * turn * k / n) + 0.001 * (rand() - 0.5) }' >"$1"
+}
+places few.csv 200
+run 1 tune few.csv --pole-pairs 11 --torque-constant 0.8 --slots 24 --rated-current 6 -o few
+says '^the samples lie too far apart: ' '^  - Order 24, which slots and poles make, was not looked at'
+check "a table in few" [ ! -e few/table ]
+places enough.csv 1200
+run 0 tune enough.csv --pole-pairs 11 --torque-constant 0.8 --slots 24 --rated-current 6 -o enough
+says 'order 24: 0\.01 '
+
 # ---- exactly once round each way: the rows of the start and of the turning point are not used, and leave a gap
 
 awk 'BEGIN { srand(3); print "time_s,theta_m_rad,iq_A"; w = 0.6283185; turn = 6.2831853; for (k = 0; k <= 21000; ++k) { t = 0.001 * k; half = 10.25

@@ -18,8 +18,7 @@ enum {
     ALL_ORDERS = 7,    /* up to here those of the mechanical turn too */
     MOST_PERIODS = 200,
     LEAST_SAMPLES = 20, /* for each coefficient */
-    LEAST_IN_ALL = 2 * LEAST_SAMPLES * MOST_ORDER,
-    LEAST_IN_MEAN = LEAST_SAMPLES * FIRST_ORDERS, /* in a mean over turns, where less noise is left */
+    LEAST_IN_ALL = LEAST_SAMPLES * FIRST_ORDERS,
     SHARPEST = 120,                               /* electrical order, of currents with edges */
     MOST_OF_TURN = 300, /* periods in a turn, of an encoder that errs between its lines */
     USUAL_PERIODS = 5,  /* of an encoder or a resolver that errs */
@@ -460,13 +459,13 @@ static void workspace_release(series_workspace *r)
 static bool series_make(hci_binned_sample *sample, const hci_segment *segment, int pole_pairs, bool turns,
                         bool *series)
 {
-    const size_t n = segment->count, least = segment->turns > 0 ? LEAST_IN_MEAN : LEAST_IN_ALL;
+    const size_t n = segment->count;
     size_t periods[MOST_PERIODS];
     const double resolved = periods_resolved(sample, n);
     const size_t count = periods_list(pole_pairs, turns, n, resolved, periods);
     size_t all = count;
     series_workspace workspace;
-    if (n < least || count == 0) return true;
+    if (n < LEAST_IN_ALL || count == 0) return true;
     bool made = workspace_make(&workspace, n, 2 * count + 1);
     if (made) *series = currents_fit(sample, n, pole_pairs, periods, count, &workspace);
     if (made && *series)

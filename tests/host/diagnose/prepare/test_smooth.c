@@ -319,10 +319,10 @@ static void test_ripple_of_few_samples(void)
 static void test_rate_of_change_of_a_short_run(void)
 {
     for (int direction = -1; direction <= 1; direction += 2) {
-        turn(470, 1180.0, 50.0 * direction, 0.0, 0.0);
+        turn(230, 1180.0, 50.0 * direction, 0.0, 0.0);
         flow(0.0);
         reduce();
-        for (size_t k = 10; k < 460; ++k) {
+        for (size_t k = 10; k < 220; ++k) {
             const hci_sample *x = &binned.sample[k].reading;
             double d, q, dd, dq;
             rec_rotor(x->change_A_per_s, P * x->theta_m_rad, &d, &q);
