@@ -236,16 +236,16 @@ bool hci_clock_mend(hci_stamps stamps, hci_note *remark)
 #define ROUGH 0.1 /* of the usual step, by which steps are off it on average, a gap no more than one */
 #define TURNS 0.5 /* of the pairs of steps, one longer and one shorter; noise of the stamps makes 2/3 */
 
-bool hci_clock_is_rough(hci_stamps stamps, double *work)
+bool hci_clock_is_rough(hci_stamps stamps)
 {
     const hci_stamps *s = &stamps;
     if (s->n < 2 * LEAST) return false;
-    for (size_t k = 1; k < s->n; ++k)
-        work[k - 1] = s->time_s[k] - s->time_s[k - 1];
-    const double usual_s = hci_median(work, s->n - 1);
+    const double usual_s = mean_steps_of(s->time_s, s->n).sample_s;
+    const double least_s = LEAST_SHARE * usual_s;
     double pairs = 0.0, turns = 0.0, before = 0.0, sum = 0.0;
     for (size_t k = 1; k < s->n; ++k) {
-        const double off = s->time_s[k] - s->time_s[k - 1] - usual_s;
+        const double more_s = s->time_s[k] - s->time_s[k - 1] - usual_s;
+        const double off = fabs(more_s) > least_s ? more_s : 0.0;
         pairs += fabs(off * before) > 0.0;
         turns += off * before < 0.0;
         before = off;

@@ -30,8 +30,8 @@ double hci_clock_gap_s(const double *time_s, size_t n);
 
 /* Whether stamps come early and late by turns, by a tenth of the time between samples or more, as where a bus
  * or a whole number of milliseconds makes them: what varies from sample to sample is then not told by them.
- * Before they are mended. work: n. O(n). */
-bool hci_clock_is_rough(hci_stamps stamps, double *work);
+ * Before they are mended. O(n). */
+bool hci_clock_is_rough(hci_stamps stamps);
 
 typedef enum {
     HCI_CLOCK_AGREES,  /* the angle is a smooth function of the stamps, or rough in any case */

@@ -96,10 +96,7 @@ static hci_status read_time(reader *r)
     const hci_status status = read_column(r, HCI_RUN_TIME, &run->time_s);
     keep_header(r, HCI_RUN_TIME, run->time_column);
     if (status || run->time_s == NULL) return status;
-    double *work = hci_memory_new(run->count, sizeof *work);
-    if (work == NULL) return memory_error(r);
-    run->rough_clock = hci_clock_is_rough(stamps_of(run), work);
-    hci_memory_free(work);
+    run->rough_clock = hci_clock_is_rough(stamps_of(run));
     if (!hci_clock_mend(stamps_of(run), &run->remark)) drop_time(run);
     if (run->time_s) run->gap_s = hci_clock_gap_s(run->time_s, run->count);
     return HCI_OK;
