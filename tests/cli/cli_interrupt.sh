@@ -2,7 +2,7 @@
 # labels: slow
 # Progress, and Ctrl-C as soon as there is some: a clear line, no files, no folders that were made for them; older results as they were.
 # Without a terminal the same, and no progress.
-# Slow because progress is shown from the first second on only, and two simulations have to run so long.
+# Slow because progress is shown from the first second on only, and two simulations and a search have to run so long.
 #   cli_interrupt.sh SOURCE_DIR BUILD_DIR HCI_SOLVE
 . "$1/tests/support/common.sh"
 . "$1/tests/cli/on_terminal.sh"
@@ -19,8 +19,15 @@ keys='simulating.*s simulated/s>\x03'
     plan made 80 -- $endless -o "$work/made/for/it"
     plan older 80 LC_ALL=C -- $endless --json --report -o "$work/older"
 }
+# A search that would go on for half a minute: each recording four times, and small effects asked for.
+mkdir "$work/recorded"
+echo file,role >"$work/recorded/runs.csv"
+for copy in 1 2 3 4; do
+    cp -R data/fem_c/runs "$work/recorded/$copy"
+    sed "1d; s|^runs/|$copy/|" data/fem_c/runs.csv >>"$work/recorded/runs.csv"
+done
 keys='looking for effects>\x03'
-plan early 80 -- diagnose data/fem_c/machine --runs data/fem_c/runs.csv -o "$work/early"
+plan early 80 -- diagnose data/fem_c/machine --runs "$work/recorded/runs.csv" --work 30 --resolution 0.001 -o "$work/early"
 keys=
 perform
 interrupted() {
