@@ -956,12 +956,17 @@ static void test_a_ripple_that_has_moved_tells_another_zero(void)
 }
 
 /* Currents 69 degrees on may be those of a salient machine: the ripple beside them tells, or does not. */
+MISTAKE(begun_less_far_back, x->torque_Nm += -0.05 + RIPPLE(x->theta); x->theta -= 0.28)
 MISTAKE(ripple_where_it_was, x->torque_Nm += RIPPLE(x->theta - 0.3); x->theta -= 0.3)
 
 static void test_a_zero_that_is_less_than_a_quarter_on(void)
 {
     check_three(8.0, (mistake *const[]){with_ripple, begun_again, begun_again});
     expect_first("angle_zero_moved", "second.csv is some 69 degrees from that in first.csv");
+    TEST_ASSERT_NOT_NULL(strstr(check.finding[0].words, "and so is that in 1 other"));
+    remove_files();
+    check_three(8.0, (mistake *const[]){begun_less_far_back, with_ripple, begun_again});
+    expect_first("angle_zero_moved", "third.csv is some 69 degrees from that in second.csv");
     TEST_ASSERT_NOT_NULL(strstr(check.finding[0].words, "and so is that in 1 other"));
     remove_files();
     check_three(8.0, (mistake *const[]){with_ripple, ripple_where_it_was, ripple_where_it_was});

@@ -159,6 +159,68 @@ static void test_what_runs_do_not_share(void)
         TEST_ASSERT_TRUE(fabs(found.order[k] - 6.0) > 0.1);
 }
 
+/* Each run is asked what it would have by itself: a large torque at which the error does not show stands
+ * against a small one at which it does. */
+static void test_a_large_torque_that_shows_no_error(void)
+{
+    static const double PERIODS[] = {18.0}, ERROR_RAD[] = {0.05};
+    hci_machine smooth = MACHINE;
+    smooth.cogging_count = 0;
+    source.machine = &smooth;
+    for (size_t k = 0; k < COUNT; ++k)
+        rec_phases(k < SAMPLES ? 60.0 : 6.0, 0.0, P * sample[k].reading.theta_m_rad, sample[k].reading.i_abc);
+    err(PERIODS, ERROR_RAD, 1);
+    find();
+    TEST_ASSERT_EQUAL_DOUBLE(18.0 / P, found.order[0]);
+    for (size_t k = 0; k < SAMPLES; ++k)
+        residual_Nm[k] = NOISE_NM * ref_normal(&seed);
+    find();
+    TEST_ASSERT_EQUAL_UINT64(0, found.count);
+}
+
+/* So many runs of a turn, the first ones with i_d; a wave of torque in each, of which an error of the angle
+ * would explain `strength` (a fall of χ²), with the sign of the run. */
+enum { MANY = 48, SHORT = COUNT / MANY };
+
+static bool any_in_many(size_t loaded, double strength, const double sign[4])
+{
+    static hci_segment segments[MANY];
+    static hci_run runs[MANY];
+    static bool used[MANY];
+    hci_machine smooth = MACHINE;
+    smooth.cogging_count = 0, smooth.back_emf_count = 1;
+    setUp();
+    source.machine = &smooth, source.runs = runs, source.use = used;
+    samples.segment = segments, samples.segment_count = MANY;
+    for (size_t r = 0; r < MANY; ++r) {
+        segments[r] = (hci_segment){.run = r, .first = r * SHORT, .count = SHORT};
+        runs[r].torque_source = HCI_TORQUE_MEASURED;
+        used[r] = true;
+    }
+    for (size_t k = 0; k < COUNT; ++k) {
+        const double theta_m_rad = 2.0 * REF_PI * (double)(k % SHORT) / SHORT;
+        const bool is_loaded = k < loaded * SHORT;
+        sample[k].reading.theta_m_rad = theta_m_rad;
+        rec_phases(is_loaded ? 6.0 : 0.0, 0.0, P * theta_m_rad, sample[k].reading.i_abc);
+        if (is_loaded)
+            residual_Nm[k] +=
+                sign[k / SHORT % 4] * NOISE_NM * sqrt(2.0 * strength / SHORT) * sin(6.0 * theta_m_rad);
+    }
+    TEST_ASSERT_TRUE(hci_angle_orders_find(&source, 1, 0.48 * SHORT / P, &found));
+    return found.count > 0;
+}
+
+/* Noise alone explains 2 of each of 48 runs, 96 together, beside 60 of what they share. A run without a
+ * torque explains nothing: four runs with 35 each, one of them against the others, do not share it. */
+static void test_what_chance_makes_of_many_runs(void)
+{
+    static const double SHARED[4] = {1.0, 1.0, 1.0, 1.0}, ONE_AGAINST[4] = {1.0, 1.0, 1.0, -1.0};
+    TEST_ASSERT_TRUE(any_in_many(MANY, 60.0 / MANY, SHARED));
+    TEST_ASSERT_EQUAL_DOUBLE(6.0 / P, found.order[0]);
+    TEST_ASSERT_TRUE(any_in_many(4, 35.0, SHARED));
+    TEST_ASSERT_FALSE(any_in_many(4, 35.0, ONE_AGAINST));
+}
+
 /* Runs that are held tell no torque, and those that are not in use nothing. */
 static void test_runs_that_tell_nothing(void)
 {
@@ -181,6 +243,8 @@ int main(void)
     RUN_TEST(test_what_load_alone_shows);
     RUN_TEST(test_what_the_teeth_alone_show);
     RUN_TEST(test_what_runs_do_not_share);
+    RUN_TEST(test_a_large_torque_that_shows_no_error);
+    RUN_TEST(test_what_chance_makes_of_many_runs);
     RUN_TEST(test_runs_that_tell_nothing);
     return UNITY_END();
 }

@@ -206,17 +206,22 @@ static void test_values_of_a_polynomial(void)
 
 /* ---- the whole ---- */
 
-static hci_drift found(double torque_Nm, double current_A, double speed)
+static hci_drift found_beside(double mean_A, double torque_Nm, double current_A, double speed)
 {
     record(700, 60.0, 1.0, torque_Nm, current_A, speed);
     for (size_t k = 0; k < run.count; ++k) {
         run.torque_Nm[k] = torque_Nm * tau_of(k) + 0.3 * sin(TURN * (double)k / 60.0);
-        rec_phases(0.0, 4.0 + current_A * tau_of(k), P * run.theta_m_rad[k], run.i_A + 3 * k);
+        rec_phases(0.0, mean_A + current_A * tau_of(k), P * run.theta_m_rad[k], run.i_A + 3 * k);
     }
     statistics = hci_run_statistics_of(&run, P);
     statistics.rms_torque_Nm = 0.5; /* of which a change of the speed by all of it makes as much */
     statistics.repeat_Nm = 1e-3;
     return hci_drift_find(&run, &statistics, P, K_NM_PER_A);
+}
+
+static hci_drift found(double torque_Nm, double current_A, double speed)
+{
+    return found_beside(4.0, torque_Nm, current_A, speed);
 }
 
 /* A current or a speed that may make three tenths of it. */
@@ -229,6 +234,18 @@ static void test_what_a_cause_may_make(void)
     TEST_ASSERT_EQUAL_INT(0, found(0.05, 0.33 * 0.05 / K_NM_PER_A, 0.0).degree);
     TEST_ASSERT_EQUAL_INT(1, found(0.05, 0.0, 0.27 * 0.05 / 0.5 * 50.0).degree);
     TEST_ASSERT_EQUAL_INT(0, found(0.05, 0.0, 0.33 * 0.05 / 0.5 * 50.0).degree);
+}
+
+/* Of a motor whose currents are small as well; a run without a current has readings of its sensors alone,
+ * which may creep by themselves. */
+static void test_a_cause_of_any_size(void)
+{
+    const double creeping_A = 0.33 * 0.05 / K_NM_PER_A;
+    TEST_ASSERT_EQUAL_INT(0, found_beside(0.1, 0.05, creeping_A, 0.0).degree);
+    TEST_ASSERT_TRUE(statistics.current_A > 0.05 && statistics.current_A < 0.2);
+    found_beside(0.0, 0.05, 2.0 * creeping_A, 0.0);
+    statistics.current_A = 0.0;
+    TEST_ASSERT_EQUAL_INT(1, hci_drift_find(&run, &statistics, P, K_NM_PER_A).degree);
 }
 
 static int degree_where(double repeat_Nm, double coldest_C, double hottest_C, double deviation)
@@ -302,6 +319,7 @@ int main(void)
     RUN_TEST(test_the_degree_is_what_stands_out);
     RUN_TEST(test_values_of_a_polynomial);
     RUN_TEST(test_what_a_cause_may_make);
+    RUN_TEST(test_a_cause_of_any_size);
     RUN_TEST(test_which_runs_are_asked);
     RUN_TEST(test_the_least_length);
     RUN_TEST(test_rates_that_are_one);

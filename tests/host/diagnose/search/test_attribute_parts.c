@@ -103,6 +103,19 @@ static void test_what_runs_without_a_current_show_is_marked(void)
     search_start();
 }
 
+/* Of each type that may be in, from the first to the last. */
+static void test_what_was_told_apart_is_forgotten_of_all(void)
+{
+    for (size_t k = 0; k < 4; ++k)
+        a.verdict[k] = (hci_verdict){.ambiguous = true, .rival_of = hci_effect_type_at(0)};
+    a.types = 3;
+    ambiguities_forget(&a);
+    for (size_t k = 0; k < 4; ++k) {
+        TEST_ASSERT_EQUAL(k == 3, a.verdict[k].ambiguous);
+        TEST_ASSERT_EQUAL(k == 3, a.verdict[k].rival_of != NULL);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -110,5 +123,6 @@ int main(void)
     RUN_TEST(test_what_is_beside_something_unknown);
     RUN_TEST(test_a_machine_that_leaves_most);
     RUN_TEST(test_what_runs_without_a_current_show_is_marked);
+    RUN_TEST(test_what_was_told_apart_is_forgotten_of_all);
     return UNITY_END();
 }
