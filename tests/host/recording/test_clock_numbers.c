@@ -97,6 +97,9 @@ static void test_whole_milliseconds_come_by_turns(void)
     const double of_1p5[] = {0.0, 1.0}, of_1p4[] = {0.0, 1.0, 0.0, 1.0, 0.0};
     for (size_t n = 100; n < 104; ++n) {
         TEST_ASSERT_TRUE(is_rough(n, of_1p5, 2));
+        for (size_t k = 0; k < n; ++k)
+            t[k] *= 1e-3;
+        TEST_ASSERT_TRUE(hci_clock_is_rough(first(n)));
         TEST_ASSERT_TRUE(is_rough(n, of_1p4, 5));
     }
 }
