@@ -43,7 +43,8 @@ static void name_times(char *names)
     memcpy(names, "t_ms", strlen(TIME_CELL));
     for (char *cell = next_cell(names, separator); cell != NULL; cell = next_cell(cell, separator)) {
         if (!begins(cell, TIME_CELL)) continue;
-        const char name[] = {'(', "tuvwxyz"[++count / 10 % 7], (char)('0' + count % 10), ')'};
+        ++count;
+        const char name[] = {'(', "tuvwxyz"[count / 10 % 7], (char)('0' + count % 10), ')'};
         memcpy(cell, name, sizeof name);
     }
 }

@@ -207,8 +207,8 @@ hci_solution_verdict hci_solution_read_verdict(const char *path)
 const char *hci_solution_verdict_words(hci_solution_verdict verdict)
 {
     static const char *const WORDS[] = {"",
-                                        "the torque of these currents is not as it was wanted: `solve` says "
-                                        "not reached, the nearest is given",
+                                        ("the torque of these currents is not as it was wanted: `solve` says "
+                                         "not reached, the nearest is given"),
                                         "these currents do not keep the limits with which they were solved"};
     return WORDS[verdict];
 }

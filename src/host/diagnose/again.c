@@ -201,7 +201,7 @@ static double mean_square_root(const hci_again *a, size_t member)
 static void totals_fill(hci_again *a)
 {
     for (size_t k = 0; k < a->runs; ++k) {
-        a->bounded += isfinite(a->run[k].bound_Nm);
+        a->bounded += isfinite(a->run[k].bound_Nm) != 0;
         a->kept += a->run[k].kept;
     }
     a->declared_Nm = mean_square_root(a, offsetof(hci_again_run, declared_Nm));

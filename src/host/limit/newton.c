@@ -57,7 +57,7 @@ static hci_status check(hci_newton *w)
     hci_status status = HCI_OK;
     for (size_t q = 0; q < p->grids && !status; ++q) {
         const bool is_of_torque = p->grid[q].kind == HCI_POINT_TORQUE;
-        hci_limit_points found = {NULL};
+        hci_limit_points found = {0};
         double range[2];
         if (!hci_newton_is_asked(w, &p->grid[q])) continue;
         hci_newton_range_of(w, &p->grid[q], is_of_torque ? 0.0 : HCI_LIMIT_MARGIN, range);
@@ -75,7 +75,7 @@ static hci_status check(hci_newton *w)
 /* The rows of no angle, which do not change. */
 static hci_status begin_build(hci_newton *w)
 {
-    w->program.points = (hci_limit_points){NULL};
+    w->program.points = (hci_limit_points){0};
     w->program.grids = 0;
     if (!hci_limit_build_begin(&w->program, w->near->stage, &w->build)) return HCI_ERROR_MEMORY;
     hci_limit_stage_fill(&w->build);
@@ -197,7 +197,7 @@ void hci_limit_rest_release(hci_limit_rest *rest)
 {
     hci_memory_free(rest->x);
     hci_memory_free(rest->at);
-    *rest = (hci_limit_rest){NULL};
+    *rest = (hci_limit_rest){0};
 }
 
 static void end(hci_newton *w)

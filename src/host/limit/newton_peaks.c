@@ -130,7 +130,7 @@ static hci_newton_peak make_peak(const hci_newton *w, const hci_limit_grid *g, c
  */
 static hci_status search_grid(hci_newton *w, const hci_limit_grid *g, double share, size_t *added)
 {
-    hci_limit_points found = {NULL};
+    hci_limit_points found = {0};
     double range[2];
     hci_newton_range_of(w, g, share, range);
     hci_status status = hci_newton_peaks_beyond(w, g, range, &found);

@@ -310,8 +310,8 @@ static void rails_find(const rows_task *t, const double *value, double rail[2])
     double least = INFINITY, most = -INFINITY;
     for (size_t k = 0; k < t->rows; ++k)
         if (t->is_left[k]) least = fmin(least, value[k]), most = fmax(most, value[k]);
-    rail[0] = rows_at(t, value, least) > RAIL_SHARE * (double)t->rows ? least : -HUGE_VAL;
-    rail[1] = rows_at(t, value, most) > RAIL_SHARE * (double)t->rows ? most : HUGE_VAL;
+    rail[0] = (double)rows_at(t, value, least) > RAIL_SHARE * (double)t->rows ? least : -HUGE_VAL;
+    rail[1] = (double)rows_at(t, value, most) > RAIL_SHARE * (double)t->rows ? most : HUGE_VAL;
 }
 
 static void say_clipped(const rows_task *t, const double rail[2], size_t left_out)

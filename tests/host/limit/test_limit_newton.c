@@ -24,7 +24,8 @@ static const hci_target target = {&mean, 1};
 static hci_component_set set;
 static hci_solve_options options;
 static hci_solution solution;
-static enum { USED, REFUSED, FAR_OFF } mode;
+typedef enum { USED, REFUSED, FAR_OFF } beginning;
+static beginning mode;
 static int found, left;
 
 /* From −2 x, which keeps no limit. */
@@ -90,7 +91,7 @@ static void draw_machine(uint64_t seed)
     options.limit_voltage_V = ref_uniform(&seed, 45.0, 60.0);
 }
 
-static void solve(int how)
+static void solve(beginning how)
 {
     hci_note note = {{0}};
     mode = how;
@@ -101,7 +102,7 @@ static void solve(int how)
 }
 
 /* Mean, ripple and copper of the rounds alone beside those with Newton's method: ten machines. */
-static void compare(int how, int *with, int *without)
+static void compare(beginning how, int *with, int *without)
 {
     *with = *without = 0;
     for (uint64_t seed = 1; seed <= 10; ++seed) {

@@ -99,8 +99,8 @@ static void heading_of(const hci_solution *s, char text[256])
 {
     static const char *const COST[] = {
         "The limits are kept, and cost nothing", "The limits cost copper: the torque is as wanted",
-        "The limits cost smoothness: the mean torque is as wanted, its ripple the smallest of these "
-        "components by",
+        ("The limits cost smoothness: the mean torque is as wanted, its ripple the smallest of these "
+         "components by"),
         "The limits cost torque: the mean is the nearest within them that was found with these components",
         "No current keeps the limits: this one exceeds all of them by the same share"};
     static const char *const BY[] = {" the sum of squares", " the worst order", " peak to peak", " rms"};

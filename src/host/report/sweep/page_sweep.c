@@ -214,7 +214,7 @@ static const picture TRADE_OFF[] = {
       .wide = 230,
       .narrow = 250,
       .draw = hci_plot_peak_by_copper}},
-    {NULL, {NULL}}};
+    {0}};
 
 static const picture ENVELOPE[] = {
     {"How much torque there is at each speed",
@@ -238,7 +238,7 @@ static const picture ENVELOPE[] = {
       .narrow = 290,
       .legend_rows = 3,
       .draw = hci_plot_envelope_ripple}},
-    {NULL, {NULL}}};
+    {0}};
 
 static const picture MAP[] = {
     {"What each torque costs at each speed",
@@ -255,7 +255,7 @@ static const picture MAP[] = {
       .narrow = 5 * HCI_MAP_DOWN + 8,
       .headless = true,
       .draw = hci_plot_maps}},
-    {NULL, {NULL}}};
+    {0}};
 
 static void show_pictures(hci_output *out, const hci_grid *s, const hci_report_sources *sources)
 {

@@ -452,7 +452,7 @@ static void test_orders_of_iron_end_at_half_the_samples(void)
 {
     static const double MOST[2][2] = {{24.0, 24.0}, {60.0, 60.0}};
     for (int fine = 0; fine < 2; ++fine) {
-        double saturation, reluctance;
+        double saturation = 0.0, reluctance = 0.0;
         richness = 1;
         machine.pole_pairs = fine ? 1 : P;
         make();

@@ -118,12 +118,10 @@ static void test_errors_are_put_back(void)
     static double smooth[N];
     const double period[] = {4.0, 2.0};
     for (int more = 0; more < 2; ++more) {
-        double noise = 0.0;
         turn(10.0);
         for (size_t k = 0; k < N; ++k) {
             const double rest = 0.01 * (k % 2 ? 1.0 : -1.0);
             smooth[k] = sample[k].reading.theta_m_rad;
-            noise += rest * rest;
             sample[k].reading.theta_m_rad += rest;
         }
         const double size =
