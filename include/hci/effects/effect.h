@@ -162,7 +162,6 @@ typedef struct {
     bool timed;                 /* a run has time and speed */
     bool moving;                /* the shaft turned */
     bool loaded_both_ways; /* under load in one run forward, in one backward, at alike loads or two each */
-    bool constant_told;    /* mean torques tell the torque per ampere beside friction and a sensor's zero */
     bool one_sided;        /* all loads have an i_q of one sign, of which none tells what of the mean torque
                             * keeps its sign with the load */
     bool has_temperature;  /* of the magnets, which changes */

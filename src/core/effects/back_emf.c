@@ -78,10 +78,8 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
 {
     const int step = survey->poles_differ || has_even(survey->machine) ? 1 : 2;
     const double largest = largest_of(survey->machine), expected = EXPECTED * largest;
-    if (survey->constant_told) {
-        hci_effect_propose(to, SINE, 1, 1.0, 2.0, expected);
-        hci_effect_propose(to, COSINE, 1, 1.0, 2.0, expected);
-    }
+    hci_effect_propose(to, SINE, 1, 1.0, 2.0, expected);
+    hci_effect_propose(to, COSINE, 1, 1.0, 2.0, expected);
     for (int n = 1 + step; n <= MOST_ORDER; n += step)
         if (can_act(survey, n))
             hci_effect_propose(to, SINE, 2, n, n % 6 == 1 || n % 6 == 5 ? USUAL : UNUSUAL, expected);

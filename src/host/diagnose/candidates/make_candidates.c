@@ -247,25 +247,6 @@ static bool are_loaded_both_ways(const hci_binned_samples *samples, const bool *
     return paired;
 }
 
-/* Whether mean torques tell the torque per ampere beside a friction and a zero of their sensor. Two that
- * differ in direction and load do not: whatever it is, these make up for it, and the one that is best takes
- * the noise of the currents out of the modelled torque. */
-static bool is_constant_told(const hci_candidates_source *s)
-{
-    const double most_A = largest_current_A(s->samples, s->use);
-    loads ahead = {.count = 0}, back = {.count = 0};
-    for (size_t r = 0; r < s->samples->run_count; ++r) {
-        const hci_run_statistics *f = &s->samples->statistics[r];
-        if (!s->use[r]) continue;
-        if (s->runs[r].torque_source != HCI_TORQUE_MEASURED || f->both_ways) return true;
-        const bool is_load = f->current_A > LEAST_LOAD * most_A;
-        if (is_load && hypot(f->mean_id_A, f->mean_iq_A) < EVEN_LOAD * f->current_A) return true;
-        load_add(f->mean_speed_rad_per_s < 0.0 ? &back : &ahead,
-                 is_load ? copysign(f->current_A, f->mean_iq_A) : 0.0);
-    }
-    return ahead.count == 0 || back.count == 0 || ahead.count + back.count > 2;
-}
-
 static hci_effect_survey survey_of(const hci_candidates_source *s)
 {
     hci_effect_survey x = {.machine = s->machine,
@@ -290,7 +271,6 @@ static hci_effect_survey survey_of(const hci_candidates_source *s)
     }
     x.has_temperature = warms(s);
     x.one_sided = are_one_sided(s->samples, s->use);
-    x.constant_told = is_constant_told(s);
     x.loaded_both_ways = are_loaded_both_ways(s->samples, s->use);
     x.reference_current_A = s->reference_current_A > 0.0 ? s->reference_current_A : x.current_A;
     return x;

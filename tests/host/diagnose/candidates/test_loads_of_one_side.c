@@ -89,41 +89,6 @@ static void test_loads_of_both_directions(void)
     TEST_ASSERT_FALSE(are_loaded_both_ways(&four, used));
 }
 
-/* Three means that differ in load or direction, where both directions are there; what is not measured, or
- * varies, is not counted. */
-static void test_what_tells_the_torque_per_ampere(void)
-{
-    static const struct {
-        double iq_A[RUNS], speed_rad_per_s[RUNS];
-        bool told;
-    } c[] = {{{2.0, 3.0, 3.0}, {6.0, -6.0, -6.0}, false},
-             {{2.0, 3.0, -3.0}, {6.0, -6.0, -6.0}, true},
-             {{2.0, 3.0, 0.01}, {6.0, -6.0, -6.0}, true},
-             {{3.0, 0.01, 0.02}, {6.0, -6.0, -6.0}, false}, /* both next to none */
-             {{2.0, 2.0, 2.0}, {6.0, 6.0, 6.0}, true}};
-    hci_run runs[RUNS] = {{.torque_source = HCI_TORQUE_MEASURED},
-                          {.torque_source = HCI_TORQUE_MEASURED},
-                          {.torque_source = HCI_TORQUE_MEASURED}};
-    const hci_candidates_source source = {.samples = &samples, .runs = runs, .use = use};
-    for (size_t k = 0; k < sizeof c / sizeof *c; ++k) {
-        set(c[k].iq_A);
-        for (size_t r = 0; r < RUNS; ++r)
-            statistics[r].mean_speed_rad_per_s = c[k].speed_rad_per_s[r];
-        TEST_ASSERT_EQUAL(c[k].told, is_constant_told(&source));
-    }
-    set(c[0].iq_A);
-    statistics[1].mean_speed_rad_per_s = statistics[2].mean_speed_rad_per_s = -6.0;
-    TEST_ASSERT_FALSE(is_constant_told(&source));
-    statistics[2].current_A = 3.0 / 0.69;
-    TEST_ASSERT_TRUE(is_constant_told(&source));
-    statistics[2].current_A = 3.0, statistics[2].both_ways = true;
-    TEST_ASSERT_TRUE(is_constant_told(&source));
-    statistics[2].both_ways = false, runs[1].torque_source = HCI_TORQUE_HOLDING;
-    TEST_ASSERT_TRUE(is_constant_told(&source));
-    use[1] = false;
-    TEST_ASSERT_FALSE(is_constant_told(&source));
-}
-
 /* Means over a turn alone have none; one recording in use with an angle is enough. */
 static void test_recordings_without_an_angle(void)
 {
@@ -144,7 +109,6 @@ int main(void)
     RUN_TEST(test_the_largest_current);
     RUN_TEST(test_loads_of_one_sign);
     RUN_TEST(test_loads_of_both_directions);
-    RUN_TEST(test_what_tells_the_torque_per_ampere);
     RUN_TEST(test_recordings_without_an_angle);
     return UNITY_END();
 }
