@@ -33,9 +33,13 @@ static double modify(const hci_effect *effect, const hci_plant_state *plant, dou
     return value - hci_effect_value(effect, INERTIA) * change / step_s;
 }
 
+/* Where the shaft speeds up alike all along, an inertia is what a friction is, which every machine has and
+ * which takes up to two values more: it has to be better, and not shorter alone. */
+#define BESIDE_FRICTION 1e5
+
 static void propose(const hci_effect_survey *survey, const hci_effect_proposals *to)
 {
-    if (survey->acceleration_rad_per_s2 > 0.0) hci_effect_propose(to, INERTIA, 1, 0.0, 1.0, 0.0);
+    if (survey->acceleration_rad_per_s2 > 0.0) hci_effect_propose(to, INERTIA, 1, 0.0, BESIDE_FRICTION, 0.0);
 }
 
 const hci_effect_type hci_effect_rotor_inertia = {

@@ -95,6 +95,8 @@ static void test_what_recordings_ask_for(void)
     TEST_ASSERT_TRUE(taken[0].count == 2 && taken[1].count == 2); /* sine and cosine */
     TEST_ASSERT_TRUE(taken[2].expected > 0.0 && taken[2].expected < 0.4 && taken[3].expected > 0.0);
     TEST_ASSERT_EQUAL_DOUBLE(0.0, taken[4].expected); /* any inertia */
+    TEST_ASSERT_EQUAL_DOUBLE(1e5,
+                             taken[4].alternatives); /* 2 ln of it is two values of a friction at 1e5 rows */
 }
 
 /* Orders at which the angle may be off, but for those of a resolver and of an eccentric encoder, which are
