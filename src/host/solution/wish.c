@@ -178,7 +178,9 @@ hci_status hci_wish_solve(hci_wishes *l, hci_limit_stage stage, hci_limit_optimu
     l->program.precision = needs_precision(l) ? 0.0 : ROUGH;
     for (int round = 0; round < rounds_of(l) && goes_on && !status; ++round) {
         const double before = o->smallest;
-        status = try_round(l, stage, o, &goes_on, note);
+        status = hci_task_goes_on(l->of->task, note);
+        if (!status) status = try_round(l, stage, o, &goes_on, note);
+        if (status == HCI_ERROR_STOPPED) return status;
         tell_round(l);
         if (o->is_settled) return status;
         if (!status && goes_on) status = add_peaks(l, stage, o, &added, note);

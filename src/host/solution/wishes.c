@@ -190,13 +190,26 @@ static bool is_settled(hci_status status, const hci_limit_optimum *o)
     return !status && !o->is_infeasible && o->is_settled;
 }
 
+/* What ends a wish whatever it was about. */
+static bool is_end(hci_status status)
+{
+    return status == HCI_ERROR_MEMORY || status == HCI_ERROR_STOPPED;
+}
+
+/* Of a wish that may stay unmet: its end alone. */
+static hci_status end_of(const hci_wishes *l, hci_status status, hci_note *note)
+{
+    if (status == HCI_ERROR_STOPPED) return hci_task_goes_on(l->of->task, note);
+    return status == HCI_ERROR_MEMORY ? out_of_memory(note) : HCI_OK;
+}
+
 /* Takes no ripple at all first, then a little more than the smallest until that leaves room for an answer. */
 static hci_status solve_copper(hci_wishes *l, hci_limit_optimum *o)
 {
     hci_limit_program *p = &l->program;
     hci_note ignored = {{0}};
     hci_status status = hci_wish_solve(l, HCI_STAGE_COPPER, o, &ignored);
-    for (int k = 0; k < MOST_SLACKS && !l->is_coarse && !is_settled(status, o) && status != HCI_ERROR_MEMORY;
+    for (int k = 0; k < MOST_SLACKS && !l->is_coarse && !is_settled(status, o) && !is_end(status);
          ++k) {
         hci_memory_free(o->x);
         if (!p->has_ripple) p->slack *= 10.0;
@@ -220,7 +233,7 @@ static hci_status find_copper(hci_wishes *l, hci_note *note)
         hci_wish_take(l, &o);
     }
     hci_memory_free(o.x);
-    return status == HCI_ERROR_MEMORY ? out_of_memory(note) : HCI_OK;
+    return end_of(l, status, note);
 }
 
 /* The torque as it is wanted, if there is such a current. */
@@ -241,7 +254,7 @@ static hci_status try_all(hci_wishes *l, bool *is_met, hci_note *note)
         hci_wish_take(l, &o);
     }
     hci_memory_free(o.x);
-    return status == HCI_ERROR_MEMORY ? out_of_memory(note) : HCI_OK;
+    return end_of(l, status, note);
 }
 
 /* Whether the answer is only to tell where the torque is to be made linear next: then the copper does not
