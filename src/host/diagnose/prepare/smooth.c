@@ -18,7 +18,9 @@ enum {
     ALL_ORDERS = 7,    /* up to here those of the mechanical turn too */
     MOST_PERIODS = 200,
     LEAST_SAMPLES = 20, /* for each coefficient */
-    LEAST_IN_ALL = LEAST_SAMPLES * FIRST_ORDERS,
+    LEAST_IN_ALL = 2 * LEAST_SAMPLES * MOST_ORDER,
+    LEAST_IN_MEAN = LEAST_SAMPLES * FIRST_ORDERS, /* in a mean over turns, where less noise is left, and of
+                                                   * a current without orders */
     SHARPEST = 120,                               /* electrical order, of currents with edges */
     MOST_OF_TURN = 300, /* periods in a turn, of an encoder that errs between its lines */
     USUAL_PERIODS = 5,  /* of an encoder or a resolver that errs */
@@ -454,6 +456,13 @@ static void workspace_release(series_workspace *r)
     hci_normal_equations_release(&r->normal);
 }
 
+/* Whether few samples that are no means bear the series: of a current that has orders they would lose the
+ * higher ones. */
+static bool is_borne(const hci_segment *segment, const series_workspace *r)
+{
+    return segment->turns > 0 || segment->count >= LEAST_IN_ALL || !(r->slopes > 0.0);
+}
+
 /* The currents as a series of the orders of the turn, or of the electrical period. series: out, whether there
  * is one. */
 static bool series_make(hci_binned_sample *sample, const hci_segment *segment, int pole_pairs, bool turns,
@@ -465,7 +474,7 @@ static bool series_make(hci_binned_sample *sample, const hci_segment *segment, i
     const size_t count = periods_list(pole_pairs, turns, n, resolved, periods);
     size_t all = count;
     series_workspace workspace;
-    if (n < LEAST_IN_ALL || count == 0) return true;
+    if (n < LEAST_IN_MEAN || count == 0) return true;
     bool made = workspace_make(&workspace, n, 2 * count + 1);
     if (made) *series = currents_fit(sample, n, pole_pairs, periods, count, &workspace);
     if (made && *series)
@@ -475,6 +484,7 @@ static bool series_make(hci_binned_sample *sample, const hci_segment *segment, i
         made = workspace_make(&workspace, n, 2 * all + 1);
         if (made) *series = currents_fit(sample, n, pole_pairs, periods, all, &workspace);
     }
+    *series = *series && is_borne(segment, &workspace);
     if (made && *series) coordinates_write(&workspace, n, pole_pairs, sample);
     workspace_release(&workspace);
     return made;

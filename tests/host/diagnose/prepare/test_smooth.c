@@ -314,15 +314,35 @@ static void test_ripple_of_few_samples(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.0, most);
 }
 
+/* A current without orders is its mean, of few samples too. */
+static void test_a_short_run_of_a_steady_current(void)
+{
+    double square = 0.0;
+    once = 0.0;
+    turn(470, 1180.0, 50.0, 0.0, 0.0);
+    for (size_t k = 0; k < run.count; ++k) {
+        rec_phases(0.0, 3.0, P * truth[k], run.i_A + 3 * k);
+        for (int s = 0; s < 3; ++s)
+            run.i_A[3 * k + (size_t)s] += 0.05 * ref_normal(&seed);
+    }
+    reduce();
+    for (size_t k = 0; k < binned.count; ++k) {
+        double d, q;
+        rec_rotor(binned.sample[k].reading.i_abc, P * binned.sample[k].reading.theta_m_rad, &d, &q);
+        square += (d * d + (q - 3.0) * (q - 3.0)) / (double)binned.count;
+    }
+    TEST_ASSERT_TRUE(sqrt(square) < 0.05 * 0.2);
+}
+
 /* Too few samples for a series: the slope over a fortieth of a period, which weakens order 6 by x²/10 with
  * x = 6·2π/80. */
 static void test_rate_of_change_of_a_short_run(void)
 {
     for (int direction = -1; direction <= 1; direction += 2) {
-        turn(230, 1180.0, 50.0 * direction, 0.0, 0.0);
+        turn(470, 1180.0, 50.0 * direction, 0.0, 0.0);
         flow(0.0);
         reduce();
-        for (size_t k = 10; k < 220; ++k) {
+        for (size_t k = 10; k < 460; ++k) {
             const hci_sample *x = &binned.sample[k].reading;
             double d, q, dd, dq;
             rec_rotor(x->change_A_per_s, P * x->theta_m_rad, &d, &q);
@@ -416,6 +436,7 @@ int main(void)
     RUN_TEST(test_means_of_few_samples);
     RUN_TEST(test_rates_are_no_noise);
     RUN_TEST(test_ripple_of_few_samples);
+    RUN_TEST(test_a_short_run_of_a_steady_current);
     RUN_TEST(test_rate_of_change_of_a_short_run);
     RUN_TEST(test_a_ramp_of_current_stays);
     RUN_TEST(test_edges_stay);
