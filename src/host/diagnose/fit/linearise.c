@@ -297,33 +297,6 @@ static void expectations_add(const hci_model *m, hci_normal_equations *normal)
     }
 }
 
-#define COMMON 0.05 /* deviation of what three phases or their sensors have in common */
-
-/* Whether a column is of a type of three values, one a phase, that equal look like something else. */
-static bool is_of_phases(const hci_model *m, size_t column, const hci_effect_type *type)
-{
-    const hci_candidate *s = m->column[column].candidate;
-    return s->type == type && type->when_equal && s->deviation > 0.0;
-}
-
-/* One more row for the mean of the three: what they have in common is a torque per ampere, of which the
- * machine has a value by itself, and both together may take any. */
-static void common_add(const hci_model *m, const hci_effect_type *type, hci_normal_equations *normal)
-{
-    const double weight = 1.0 / (9.0 * COMMON * COMMON);
-    double sum = 0.0;
-    for (size_t c = 0; c < m->columns; ++c)
-        if (is_of_phases(m, c, type))
-            sum += hci_candidate_departure(m->column[c].candidate, m->column[c].term);
-    for (size_t i = 0; i < m->columns; ++i) {
-        if (!is_of_phases(m, i, type)) continue;
-        for (size_t j = 0; j < m->columns; ++j)
-            if (is_of_phases(m, j, type)) normal->gram[i * normal->n + j] += weight;
-        normal->moment[i] -= weight * sum;
-    }
-    normal->square += weight * sum * sum;
-}
-
 /* ---- all of it ---- */
 
 static bool rows_reserve(filling *f)
@@ -450,8 +423,6 @@ static hci_status normal_make(const hci_regression *e, const hci_candidates *can
     if (made) {
         rounding_drop(&model, normal);
         expectations_add(&model, normal);
-        for (size_t r = 0; r < hci_candidate_types(); ++r)
-            common_add(&model, hci_candidate_type(r), normal);
     }
     hci_model_release(&model);
     if (made) return HCI_OK;

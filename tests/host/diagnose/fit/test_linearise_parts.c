@@ -216,30 +216,6 @@ static void test_expectations_are_rows(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 50.0 + 4.0 * 0.01 + 16.0 * 0.16, normal.square);
 }
 
-/* One row more, sum/(3·0.05), for the gains of a model, all that are expected to be anything; of other
- * effects none. */
-static void test_what_gains_have_in_common_is_a_row(void)
-{
-    const double weight = 1.0 / (9.0 * 0.05 * 0.05);
-    is(0, "current_gain", "a", 0.1);
-    is(2, "current_gain", "c", 0.3);
-    list[0].deviation = list[1].deviation = list[2].deviation = 0.1;
-    common_add(&model, type("current_gain"), &normal);
-    common_add(&model, type("back_emf"), &normal);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 4.0 + weight, gram[0]);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.0 + weight, gram[2]);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.0 + weight, gram[6]);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 4.0 + weight, gram[8]);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.0, gram[1]);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 4.0, gram[4]);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.0 - weight * 0.4, moment[0]);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 2.0, moment[1]);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 50.0 + weight * 0.16, normal.square);
-    list[0].deviation = list[2].deviation = 0.0;
-    common_add(&model, type("current_gain"), &normal);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 4.0 + weight, gram[0]);
-}
-
 /* ---- what a run shows ---- */
 
 static bool shows(const char *effect, const char *name, double order)
@@ -311,7 +287,6 @@ int main(void)
     RUN_TEST(test_sums_of_currents_join);
     RUN_TEST(test_columns_of_rounding);
     RUN_TEST(test_expectations_are_rows);
-    RUN_TEST(test_what_gains_have_in_common_is_a_row);
     RUN_TEST(test_what_a_run_shows);
     RUN_TEST(test_columns_that_no_run_shows);
     RUN_TEST(test_which_columns_scale);
