@@ -4,8 +4,8 @@
 
 #include "hci/math/harmonic.h"
 #include "host/base/memory.h"
-#include "host/numeric/common_delay.h"
 #include "host/numeric/statistics.h"
+#include "host/recording/list/common_delay.h"
 #include "host/recording/slow_turn.h"
 
 #define LONGEST_S  0.25 /* delay, either way */

@@ -1,5 +1,5 @@
 /* The delay that waves at several speeds have in common, from waves that were turned by hand. */
-#include "host/numeric/common_delay.h"
+#include "host/recording/list/common_delay.h"
 
 #include <complex.h>
 #include <math.h>

@@ -3,8 +3,8 @@
  * In: of each recording its speed, what loads it, and the waves of a quantity over the angle. Order n of one
  * that is read late by τ is turned by −nωτ. Out: the τ for which the waves, turned back, are the same in all
  * recordings but for a part in proportion to the load, whatever they are. */
-#ifndef HCI_SRC_HOST_NUMERIC_COMMON_DELAY_H
-#define HCI_SRC_HOST_NUMERIC_COMMON_DELAY_H
+#ifndef HCI_SRC_HOST_RECORDING_LIST_COMMON_DELAY_H
+#define HCI_SRC_HOST_RECORDING_LIST_COMMON_DELAY_H
 
 #include <stdbool.h>
 #include <stddef.h>

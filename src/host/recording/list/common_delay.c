@@ -1,4 +1,4 @@
-#include "host/numeric/common_delay.h"
+#include "host/recording/list/common_delay.h"
 
 #include <math.h>
 
