@@ -282,6 +282,7 @@ static void slopes_at(const double *row, const double *coefficients, const size_
 typedef struct {
     double *rows, *coordinate[3], *slope[3], *curvature[3], *factor, *coefficients;
     double slopes, curvatures;
+    bool noisy; /* the current, beside the torque */
     hci_normal_equations normal;
 } series_workspace;
 
@@ -297,9 +298,8 @@ static double series_left(const series_workspace *r, size_t n, const double *coo
     return square / (double)n;
 }
 
-/* An order that is as large as noise makes it says nothing of the current, nor of how fast it changes: it
- * leaves the coefficients. What is left of the noise would be explained by a torque that does not go with the
- * current, as where iron saturates. */
+/* An order that is as large as noise makes it says nothing of how fast the current changes: it leaves the
+ * coefficients. */
 static void noise_leave(series_workspace *r, size_t n, double variance)
 {
     const double most = BY_CHANCE * 4.0 * variance / (double)n;
@@ -307,24 +307,56 @@ static void noise_leave(series_workspace *r, size_t n, double variance)
         if (x[0] * x[0] + x[1] * x[1] < most) x[0] = x[1] = 0.0;
 }
 
-static bool coordinate_smooth(series_workspace *r, size_t n, const size_t *periods, int axis)
+/* The coefficients of a coordinate. variance: out, what they leave. False where there are none. */
+static bool series_of(series_workspace *r, size_t n, const double *coordinate, double *variance)
 {
-    double *coordinate = r->coordinate[axis];
     const size_t columns = r->normal.n;
     memset(r->normal.moment, 0, columns * sizeof *r->normal.moment);
     for (size_t k = 0; k < n; ++k)
         for (size_t c = 0; c < columns; ++c)
             r->normal.moment[c] += r->rows[k * columns + c] * coordinate[k];
     if (!series_fit(&r->normal, r->factor, r->coefficients)) return false;
-    noise_leave(r, n, series_left(r, n, coordinate));
+    *variance = series_left(r, n, coordinate);
+    return true;
+}
+
+static void coordinate_put(const series_workspace *r, size_t n, double *coordinate)
+{
+    for (size_t k = 0; k < n; ++k)
+        coordinate[k] = series_at(r->rows + k * r->normal.n, r->coefficients, r->normal.n);
+}
+
+/* Where the noise of the current would make more torque than the torque has noise, what is left of it would
+ * be explained by a torque that does not go with the current, as where iron saturates: it leaves the current,
+ * too. */
+static bool coordinate_smooth(series_workspace *r, size_t n, const size_t *periods, int axis)
+{
+    double *coordinate = r->coordinate[axis], variance;
+    if (!series_of(r, n, coordinate, &variance)) return false;
+    if (!r->noisy) coordinate_put(r, n, coordinate);
+    noise_leave(r, n, variance);
+    if (r->noisy) coordinate_put(r, n, coordinate);
     for (size_t k = 0; k < n; ++k) {
-        coordinate[k] = series_at(r->rows + k * columns, r->coefficients, columns);
-        slopes_at(r->rows + k * columns, r->coefficients, periods, columns / 2, &r->slope[axis][k],
+        slopes_at(r->rows + k * r->normal.n, r->coefficients, periods, r->normal.n / 2, &r->slope[axis][k],
                   &r->curvature[axis][k]);
         r->slopes += r->slope[axis][k] * r->slope[axis][k];
         r->curvatures += r->curvature[axis][k] * r->curvature[axis][k];
     }
     return true;
+}
+
+/* Sets whether the noise of i_q would make more torque than the torque has, by the torque per ampere of their
+ * means. torque: room for [n]. */
+static void noise_compare(const hci_binned_sample *sample, size_t n, series_workspace *r, double *torque)
+{
+    double of_current, of_torque, mean_A = 0.0, mean_Nm = 0.0;
+    for (size_t k = 0; k < n; ++k) {
+        torque[k] = sample[k].torque_Nm;
+        mean_A += r->coordinate[1][k] / (double)n;
+        mean_Nm += torque[k] / (double)n;
+    }
+    if (!series_of(r, n, r->coordinate[1], &of_current) || !series_of(r, n, torque, &of_torque)) return;
+    r->noisy = mean_Nm * mean_Nm * of_current > mean_A * mean_A * of_torque;
 }
 
 /* Rows of the basis and the coordinates of each sample. */
@@ -430,6 +462,7 @@ static bool currents_fit(const hci_binned_sample *sample, size_t n, int pole_pai
     coordinates_read(sample, n, pole_pairs, periods, count, r);
     hci_normal_equations_add(&r->normal, r->rows, r->coordinate[0], n);
     hci_normal_equations_finish(&r->normal);
+    noise_compare(sample, n, r, r->slope[0]);
     for (int c = 0; c < 3; ++c)
         if (!coordinate_smooth(r, n, periods, c)) return false;
     return true;
@@ -460,7 +493,7 @@ static void workspace_release(series_workspace *r)
  * higher ones. */
 static bool is_borne(const hci_segment *segment, const series_workspace *r)
 {
-    return segment->turns > 0 || segment->count >= LEAST_IN_ALL || !(r->slopes > 0.0);
+    return segment->turns > 0 || segment->count >= LEAST_IN_ALL || (r->noisy && !(r->slopes > 0.0));
 }
 
 /* The currents as a series of the orders of the turn, or of the electrical period. series: out, whether there
