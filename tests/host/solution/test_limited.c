@@ -213,6 +213,34 @@ static void test_progress_is_told_within_limits(void)
     TEST_ASSERT_TRUE(told >= 2);
 }
 
+static size_t asked, stop_at;
+
+static bool stop(void *context)
+{
+    (void)context;
+    return ++asked >= stop_at;
+}
+
+/* Each program may take seconds: whether to end is asked before every one, and nothing is kept. */
+static void test_a_stop_within_limits(void)
+{
+    told = asked = 0;
+    told_share = 0.0;
+    stop_at = (size_t)-1;
+    options.progress = tell;
+    options.stop = stop;
+    options.limit_current_A = 5.0;
+    solve(HCI_NOT_REACHED);
+    const size_t all = asked;
+    TEST_ASSERT_TRUE(all >= told);
+    for (stop_at = 1; stop_at <= all; ++stop_at) {
+        asked = 0;
+        told_share = 0.0;
+        solve(HCI_ERROR_STOPPED);
+        TEST_ASSERT_TRUE(asked >= stop_at && solution.order == NULL);
+    }
+}
+
 /* Braking, the current takes voltage off the two phases that carry it and half as much off those with the
  * open one, whose terminal shows more than the inverter has to make. */
 static void test_an_open_phase_shows_a_voltage_that_is_not_limited(void)
@@ -595,6 +623,7 @@ int main(void)
     RUN_TEST(test_copper);
     RUN_TEST(test_the_ripple_before_and_after);
     RUN_TEST(test_progress_is_told_within_limits);
+    RUN_TEST(test_a_stop_within_limits);
     RUN_TEST(test_an_open_phase);
     RUN_TEST(test_an_open_phase_shows_a_voltage_that_is_not_limited);
     RUN_TEST(test_field_weakening);
