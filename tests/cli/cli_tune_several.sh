@@ -43,7 +43,7 @@ check "one speed, of a file with four" [ "$(grep -c 'one speed' "$work/stdout")"
 
 # loads are no ripple, where the search ends before all was compared
 tests moved '100 100 100 100' 0.5 30 0.35 2000
-run 1 tune moved.csv --pole-pairs 4 --kv 18.38 --work 0.25 -o moved
+run 1 tune moved.csv --pole-pairs 4 --kv 18.38 --work 0.5 -o moved
 says '^tuned.*; the recording moved.csv shows 0.[12][0-9]* N·m from peak to peak'
 
 # loads of another direction, of which a torque wanders that no effect makes, beside three along i_q
