@@ -10,6 +10,7 @@
 #include "host/solution/limited_path.h"
 #include "host/solution/limited_set.h"
 #include "host/solution/limits.h"
+#include "host/solution/wish.h"
 #include "host/solve/linear.h"
 
 enum {
@@ -114,7 +115,7 @@ static hci_status better(hci_wishes *w, const hci_answer *a, beginning *first, d
     hci_status status = try_sine(w, a, first, x, note);
     if (!status) status = hci_limited_path_follow(w, x, note);
     if (!status) status = merit_of(w, &merit, note);
-    if (status == HCI_ERROR_MEMORY) return status;
+    if (hci_wish_is_end(status)) return status;
     if (!status && hci_limit_merit_less(&merit, &first->merit, w->program.scale_Nm)) return HCI_OK;
     memcpy(w->x, first->x, 2 * w->set.count * sizeof *w->x);
     w->cost = first->cost;
@@ -263,7 +264,7 @@ static hci_status take_better(hci_wishes *cut, const hci_solution *without, hci_
     if (!status && w.is_ended && !cut->is_ended) tell_end(&w);
     if (!status && hci_limit_merit_less(&merit, &before, w.program.scale_Nm))
         status = take(&w, without, a, note);
-    else if (status != HCI_ERROR_MEMORY) {
+    else if (!hci_wish_is_end(status)) {
         *cut->of->solution = first;
         status = take(cut, without, a, note);
     }

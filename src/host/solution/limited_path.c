@@ -6,6 +6,7 @@
 #include "core/math/vector.h"
 #include "host/base/memory.h"
 #include "host/numeric/anderson.h"
+#include "host/solution/wish.h"
 #include "host/solve/linearise.h"
 
 enum {
@@ -359,7 +360,7 @@ static hci_status polish_once(path *p, double radius_A, account *said, hci_note 
     if (!status) p->change = distance(p, p->wishes->x, p->from) / fmax(length(p, p->from), 1e-12);
     if (!status && now.exceeded_share <= said->exceeded_share) status = judge(p, &is_better, &why);
     if (is_better) said->minimised_Nm = now.minimised_Nm;
-    return status == HCI_ERROR_MEMORY ? out_of_memory(note) : HCI_OK;
+    return hci_wish_is_end(status) ? hci_note_set(note, status, "%s", why.text) : HCI_OK;
 }
 
 /* A voltage that is not linear has to be within its limit more closely than that. */

@@ -69,6 +69,11 @@ static hci_status add_peaks(hci_wishes *l, hci_limit_stage stage, const hci_limi
     return status ? out_of_memory(note) : HCI_OK;
 }
 
+bool hci_wish_is_end(hci_status status)
+{
+    return status == HCI_ERROR_MEMORY || status == HCI_ERROR_STOPPED;
+}
+
 /* How often peaks are added: until there are none, or while the torque is still being made linear a few
  * times, since they are kept for the next step. */
 static int rounds_of(const hci_wishes *l)

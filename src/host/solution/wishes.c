@@ -190,12 +190,6 @@ static bool is_settled(hci_status status, const hci_limit_optimum *o)
     return !status && !o->is_infeasible && o->is_settled;
 }
 
-/* What ends a wish whatever it was about. */
-static bool is_end(hci_status status)
-{
-    return status == HCI_ERROR_MEMORY || status == HCI_ERROR_STOPPED;
-}
-
 /* Of a wish that may stay unmet: its end alone. */
 static hci_status end_of(const hci_wishes *l, hci_status status, hci_note *note)
 {
@@ -209,7 +203,7 @@ static hci_status solve_copper(hci_wishes *l, hci_limit_optimum *o)
     hci_limit_program *p = &l->program;
     hci_note ignored = {{0}};
     hci_status status = hci_wish_solve(l, HCI_STAGE_COPPER, o, &ignored);
-    for (int k = 0; k < MOST_SLACKS && !l->is_coarse && !is_settled(status, o) && !is_end(status);
+    for (int k = 0; k < MOST_SLACKS && !l->is_coarse && !is_settled(status, o) && !hci_wish_is_end(status);
          ++k) {
         hci_memory_free(o->x);
         if (!p->has_ripple) p->slack *= 10.0;

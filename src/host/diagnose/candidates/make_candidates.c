@@ -204,9 +204,11 @@ static bool are_one_sided(const hci_binned_samples *samples, const bool *use)
     return !(drives && brakes);
 }
 
-/* Loads of one direction: how many that differ, of at most two. */
+enum { MOST_LOADS = 16 };
+
+/* Loads of one direction that differ. */
 typedef struct {
-    double current_A[2];
+    double current_A[MOST_LOADS];
     size_t count;
 } loads;
 
@@ -215,18 +217,17 @@ static bool is_alike(double one_A, double other_A)
     return fabs(one_A - other_A) <= SIMILAR * fmax(fabs(one_A), fabs(other_A));
 }
 
-static void load_add(loads *x, double current_A)
-{
-    if (x->count < 2 && !(x->count == 1 && is_alike(x->current_A[0], current_A)))
-        x->current_A[x->count++] = current_A;
-}
-
 static bool has_alike(const loads *x, double current_A)
 {
     bool any = false;
     for (size_t k = 0; k < x->count; ++k)
         any = any || is_alike(x->current_A[k], current_A);
     return any;
+}
+
+static void load_add(loads *x, double current_A)
+{
+    if (x->count < MOST_LOADS && !has_alike(x, current_A)) x->current_A[x->count++] = current_A;
 }
 
 /* Whether the shaft turned forward and back under load, so that what the direction turns is told from what is
@@ -241,7 +242,7 @@ static bool are_loaded_both_ways(const hci_binned_samples *samples, const bool *
         if (f->both_ways || f->mean_speed_rad_per_s > 0.0) load_add(&ahead, f->current_A);
         if (f->both_ways || f->mean_speed_rad_per_s < 0.0) load_add(&back, f->current_A);
     }
-    bool paired = ahead.count == 2 && back.count == 2;
+    bool paired = ahead.count >= 2 && back.count >= 2;
     for (size_t k = 0; k < ahead.count; ++k)
         paired = paired || has_alike(&back, ahead.current_A[k]);
     return paired;
