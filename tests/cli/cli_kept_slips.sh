@@ -130,6 +130,7 @@ alone consistent
 both_ways slips phases_swapped idle.both_ways.csv:1 ia_A | b and c the other way round: --column 'ib=ic_A' --column 'ic=ib_A' | phases b and c of the recordings are swapped, or another two with another zero of the angle, or angle and speed are both counted backward
 clamps slips currents_swapped idle.clamps.csv:1 ia_A | a and b of the currents the other way round: --column 'ia=ib_A' --column 'ib=ia_A' | phases a and b of the currents are swapped, and those of the voltages are not
 degrees slips theta_degrees_for_radians idle.degrees.csv:1 theta_m_rad | in degrees: --column 'theta_m_deg=theta_m_rad' | the angle of the recordings is in degrees
+dq_deg slips theta_radians_for_degrees idle.dq_deg.csv:1 theta_m | rad in line 2, the row of units | the angle of the recordings was read as degrees, and is in radians
 dq_milli slips current_milliampere idle.dq_milli.csv:1 iq | mA in line 2, the row of units | the currents are in mA
 dq_minus slips current_sign idle.dq_minus.csv:1 iq | every current with the opposite sign | the currents are counted out of the machine
 electrical slips theta_electrical_for_mechanical idle.electrical.csv:1 theta_m_rad | theta_e: --column 'theta_e=theta_m_rad' | the angle of the recordings is electrical, not mechanical, or of a shaft that a gear turns 3 times as fast

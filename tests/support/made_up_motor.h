@@ -58,7 +58,10 @@ static inline check_data motor_data(void)
         data.scale[k] = (k % 3 == 0   ? 1.0
                          : k % 3 == 1 ? MOTOR_p
                                       : 0.5 * MOTOR_p) *
-                        (k < 3 ? 1.0 : REF_PI / 180.0);
+                        (k < 3   ? 1.0
+                         : k < 6 ? REF_PI / 180.0
+                         : k < 9 ? 2.0 * REF_PI
+                                 : 180.0 / REF_PI);
     data.run = motor_run;
     return data;
 }

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "host/check/conclusions.h"
-#include "host/check/pole_pairs.h"
+#include "host/check/relations/pole_pairs.h"
 
 const char *hci_check_verdict_name(hci_check_verdict verdict)
 {

@@ -6,8 +6,8 @@
 
 #include "host/check/error_place.h"
 #include "host/check/own_findings.h"
-#include "host/check/relations.h"
-#include "host/check/run_zero.h"
+#include "host/check/relations/relations.h"
+#include "host/check/relations/run_zero.h"
 
 /* A relation is met up to so many standard deviations. */
 #define MET 2.5
@@ -97,6 +97,25 @@ static bool is_no_effect(const check_error *error)
     return false;
 }
 
+/* Of a torque that a unit takes there, the rest: a sensor's error. */
+#define A_UNIT 0.03
+
+/* Per cent of a rated torque are any number of N·m. */
+static void say_other_scale(const check_posterior *p, const check_interpretation *as, hci_check_finding *f)
+{
+    const size_t used = strlen(f->words);
+    for (size_t k = 0; k < hci_check_relation_count(); ++k) {
+        const check_relation *r = hci_check_relation(k);
+        const double left = hci_check_relation_value(p->data, r, as).found - 1.0;
+        if (strcmp(r->name, "torque_size") == 0 && fabs(left) > A_UNIT)
+            snprintf(
+                f->words + used, sizeof f->words - used,
+                ", or of another scale, such as per cent of a rated torque: with that unit it is %.0f %% "
+                "%s what the currents make",
+                100.0 * fabs(left), left < 0.0 ? "below" : "above");
+    }
+}
+
 static void add_finding(const check_posterior *p, const char *name, hci_check *check)
 {
     hci_check_finding finding = {.probability = probability(p, name, NULL, false)};
@@ -106,6 +125,7 @@ static void add_finding(const check_posterior *p, const char *name, hci_check *c
     const check_error_set *best = best_with(p, name, &error);
     const check_interpretation as = hci_check_interpretation_of(p->data, best);
     hci_check_error_locate(error, p->data, &as, &finding);
+    if (error->aspect == CHECK_OF_TORQUE_UNIT) say_other_scale(p, &as, &finding);
     finding.is_no_effect = is_no_effect(error);
     add_alternatives(p, &finding);
     for (; at > 0 && check->finding[at - 1].probability < finding.probability; --at)

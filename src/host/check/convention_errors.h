@@ -5,7 +5,7 @@
 #ifndef HCI_SRC_HOST_CHECK_CONVENTION_ERRORS_H
 #define HCI_SRC_HOST_CHECK_CONVENTION_ERRORS_H
 
-#include "host/check/interpretation.h"
+#include "host/check/relations/interpretation.h"
 
 /* Where an error stands. Beginning with CHECK_AT_THETA_M: in the recordings. */
 enum {

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "host/base/unit_lookup.h"
-#include "host/check/run_zero.h"
+#include "host/check/relations/run_zero.h"
 
 /* Their texts are copied. */
 typedef char
@@ -225,12 +225,24 @@ static bool has_unit(const char *name)
     return name[base] != '\0';
 }
 
+/* Of an angle that was read in another: how it is said, and what the name of a column then ends with. */
+typedef struct {
+    const char *words, *ending;
+} angle_unit;
+
+static angle_unit unit_of_angle(const check_error *error)
+{
+    if (error->times < 1.0) return (angle_unit){"degrees", "deg"};
+    return error->times > 10.0 ? (angle_unit){"radians", "rad"} : (angle_unit){"turns", "turn"};
+}
+
 /* Where a row of units says the unit, that is to be changed: "mNm in line 2, the row of units". */
 static void move_unit(const check_error *error, const check_place *place, char should_be[HCI_CHECK_TEXT])
 {
     size_t base;
     char name[HCI_CHECK_TEXT];
-    if (error->aspect == CHECK_OF_THETA_UNIT) snprintf(should_be, HCI_CHECK_TEXT, "theta_deg");
+    if (error->aspect == CHECK_OF_THETA_UNIT)
+        snprintf(should_be, HCI_CHECK_TEXT, "theta_%s", unit_of_angle(error).ending);
     if (strchr(should_be, ' ') || !has_unit(should_be)) return;
     snprintf(name, sizeof name, "%s", should_be);
     hci_unit_of_name(name, &base);
@@ -309,7 +321,7 @@ static const char *unit_of_gear(double turns, const char *column)
     static const struct {
         double turns;
         const char *unit;
-    } UNITS[] = {{180.0 / HCI_PI, "rad"}, {360.0, "turn"}, {2.0 * HCI_PI, "turn"}, {360.0 / 400.0, "gon"}};
+    } UNITS[] = {{360.0, "turn"}, {360.0 / 400.0, "gon"}};
     const bool is_in_degrees = strstr(column, "deg") || strstr(column, "Grad") || strstr(column, "\xC2\xB0");
     for (size_t k = 0; k < sizeof UNITS / sizeof *UNITS; ++k)
         if (fabs(turns / UNITS[k].turns - 1.0) < 0.003 && (is_in_degrees || turns > 1.0))
@@ -317,7 +329,7 @@ static const char *unit_of_gear(double turns, const char *column)
     return NULL;
 }
 
-/* An angle in rad under a name of degrees: "… is in rad, or of a shaft behind a gear of 57.3". */
+/* An angle in gon under a name of degrees: "… is in gon, or of a shaft behind a gear of 0.9". */
 static void say_unit_of_gear(const check_data *data, const check_place *place, hci_check_finding *finding)
 {
     const double turns = gear_of(data);
@@ -400,9 +412,9 @@ static void say_column(const check_error *error, const check_data *data, const c
         snprintf(text, size, "in mA: --column '%s_mA=%.60s', and so of each current", current_of(data, place),
                  place->column);
     if (error->aspect == CHECK_OF_THETA_UNIT)
-        snprintf(text, size, "in degrees: --column '%s_deg=%.60s'",
+        snprintf(text, size, "in %s: --column '%s_%s=%.60s'", unit_of_angle(error).words,
                  of_rotor && strcmp(place->column, of_rotor->column) == 0 ? "theta_m" : "theta_e",
-                 place->column);
+                 unit_of_angle(error).ending, place->column);
     if (error->aspect == CHECK_OF_THETA && !is_geared(error)) /* in the unit of its header */
         snprintf(text, size, "%.7s: --column '%.7s=%.60s'", error->should_be, error->should_be,
                  place->column);

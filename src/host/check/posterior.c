@@ -1,11 +1,12 @@
 #include "host/check/posterior.h"
 
+#include <assert.h>
 #include <math.h>
 
 #include "host/base/memory.h"
 #include "host/check/error_place.h"
-#include "host/check/relations.h"
-#include "host/check/run_zero.h"
+#include "host/check/relations/relations.h"
+#include "host/check/relations/run_zero.h"
 
 /* Tables and recordings of one bench are likely to have one zero of the angle. */
 #define SAME_ZERO 0.3
@@ -161,6 +162,7 @@ static void normalise(check_posterior *p)
 static void find_used(check_posterior *p)
 {
     const check_interpretation declared = hci_check_as_declared();
+    assert(hci_check_relation_count() <= HCI_CHECK_MOST_EVIDENCE);
     for (size_t k = 0; k < hci_check_relation_count(); ++k)
         p->used[k] = !isnan(hci_check_relation_value(p->data, hci_check_relation(k), &declared).found);
 }

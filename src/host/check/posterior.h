@@ -8,7 +8,7 @@
 
 #include "hci/host/check/check.h"
 #include "host/check/convention_errors.h"
-#include "host/check/relation.h"
+#include "host/check/relations/relation.h"
 
 enum { CHECK_MOST_ERRORS = 3 };
 

@@ -666,6 +666,8 @@ MISTAKE(ounce_inch, x->torque_Nm *= 141.612)
 MISTAKE(kilogram_centimetre, x->torque_Nm *= 10.1972)
 MISTAKE(microseconds, x->time_s *= 1e6)
 MISTAKE(behind_a_gear, x->theta *= 5.0)
+MISTAKE(turns, x->theta /= 2.0 * REF_PI)
+MISTAKE(radians_for_degrees, x->theta *= REF_PI / 180.0)
 
 static void test_slips_of_recordings(void)
 {
@@ -676,6 +678,8 @@ static void test_slips_of_recordings(void)
     } CASES[] = {
         {"theta_electrical_for_mechanical", electrical_angle, ""},
         {"theta_degrees_for_radians", degrees, ""},
+        {"theta_turns_for_radians", turns, "in turns"},
+        {"theta_radians_for_degrees", radians_for_degrees, "and is in radians"},
         {"run_angle_zero_d_axis", from_d_axis, ""},
         {"run_angle_zero_q_axis", from_crest, "crest"},
         {"run_angle_zero_q_axis", from_trough, "trough"},
@@ -894,6 +898,53 @@ static void test_a_torque_that_answers(void)
     }
 }
 
+static void test_degrees_in_one_recording(void)
+{
+    check_three(8.0, (mistake *const[]){none, degrees, none});
+    expect_first("angle_unit_differs", "the angle in second.csv counts 57.3 times as far for a turn of the "
+                                       "currents as that in first.csv: it is in degrees there");
+    TEST_ASSERT_EQUAL_STRING("theta_m_deg in the header of that log alone", check.finding[0].should_be);
+    remove_files();
+    check_three(8.0, (mistake *const[]){turns, none, none});
+    expect_first("angle_unit_differs", "the angle in first.csv counts 0.159 times as far");
+    remove_files();
+    check_three(8.0, (mistake *const[]){degrees, degrees, degrees});
+    TEST_ASSERT_FALSE(has_finding("angle_unit_differs"));
+    remove_files();
+}
+
+MISTAKE(exchanged, const double theta = x->theta; x->theta = x->torque_Nm + 0.1 * sin(7.0 * theta);
+        x->torque_Nm = theta)
+MISTAKE(of_no_unit, x->torque_Nm *= 133.0)
+
+static void test_angle_and_torque_exchanged(void)
+{
+    check_three(8.0, (mistake *const[]){exchanged, exchanged, exchanged});
+    expect_first("columns_exchanged", "torque_Nm goes on evenly from row to row");
+    remove_files();
+}
+
+/* The words of a finding; "": there is none. */
+static const char *words_of(const char *slip)
+{
+    for (size_t k = 0; k < check.findings; ++k)
+        if (strcmp(check.finding[k].slip, slip) == 0) return check.finding[k].words;
+    return "";
+}
+
+/* Per cent of a rated torque are near one unit or another. */
+static void test_a_torque_of_no_unit(void)
+{
+    check_three(8.0, (mistake *const[]){of_no_unit, of_no_unit, of_no_unit});
+    TEST_ASSERT_EQUAL_STRING("the torque is in ozf·in, or of another scale, such as per cent of a rated "
+                             "torque: with that unit it is 6 % below what the currents make",
+                             words_of("torque_ounce_inch"));
+    remove_files();
+    check_three(8.0, (mistake *const[]){ounce_inch, ounce_inch, ounce_inch});
+    TEST_ASSERT_EQUAL_STRING("the torque is in ozf·in", words_of("torque_ounce_inch"));
+    remove_files();
+}
+
 MISTAKE(b_and_c_swapped, const double b = x->i[1]; x->i[1] = x->i[2]; x->i[2] = b)
 
 static void test_phases_swapped_in_one_recording(void)
@@ -926,15 +977,13 @@ static void test_phases_in_another_order_name_their_columns(void)
     TEST_FAIL_MESSAGE("phases_rotated is not named");
 }
 
-/* 57.3 is no gear that anybody builds. */
 static void test_radians_under_a_name_of_degrees(void)
 {
     write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
     check_runs("time_s,theta_m_deg,speed_rad_per_s,ia_A,ib_A,ic_A,va_V,vb_V,vc_V,torque_Nm", none, true);
-    TEST_ASSERT_EQUAL_STRING("angle_geared", check.finding[0].slip);
-    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(check.finding[0].words, "is in rad, whatever the name"),
-                                 check.finding[0].words);
-    TEST_ASSERT_EQUAL_STRING("in rad: --column 'theta_m_rad=theta_m_deg'", check.finding[0].should_be);
+    TEST_ASSERT_EQUAL_STRING("theta_radians_for_degrees", check.finding[0].slip);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(check.finding[0].words, "and is in radians"), check.finding[0].words);
+    TEST_ASSERT_EQUAL_STRING("in radians: --column 'theta_m_rad=theta_m_deg'", check.finding[0].should_be);
 }
 
 #define RIPPLE(theta) (0.1 * sin(3.0 * (theta)) + 0.1 * sin(7.0 * (theta) + 1.0) + 0.1 * sin(24.0 * (theta)))
@@ -1547,6 +1596,9 @@ int main(void)
     RUN_TEST(test_a_torque_that_answers);
     RUN_TEST(test_one_number_for_torque);
     RUN_TEST(test_phases_swapped_in_one_recording);
+    RUN_TEST(test_degrees_in_one_recording);
+    RUN_TEST(test_angle_and_torque_exchanged);
+    RUN_TEST(test_a_torque_of_no_unit);
     RUN_TEST(test_phases_in_another_order_name_their_columns);
     RUN_TEST(test_radians_under_a_name_of_degrees);
     RUN_TEST(test_a_ripple_that_has_moved_tells_another_zero);

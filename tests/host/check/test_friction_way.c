@@ -1,5 +1,5 @@
 /* The current that overcomes friction, of two slow turns: forward less back, beside the whole current. */
-#include "host/check/relations.h"
+#include "host/check/relations/relations.h"
 
 #include "support/made_up_motor.h"
 #include "unity.h"

@@ -6,7 +6,7 @@
 
 #include "host/base/memory.h"
 #include "host/check/error_place.h"
-#include "host/check/relations.h"
+#include "host/check/relations/relations.h"
 #include "support/made_up_motor.h"
 #include "unity.h"
 

@@ -2,14 +2,14 @@
  * which factor a convention error moves it. The error is supposed in correct files here, so that a number
  * that is too small by √2 in a file becomes too large by √2 in the interpretation. */
 #include "hci/host/check/check.h"
-#include "host/check/relations.h"
+#include "host/check/relations/relations.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "host/check/convention_errors.h"
-#include "host/check/pole_pairs.h"
+#include "host/check/relations/pole_pairs.h"
 #include "support/made_up_motor.h"
 #include "unity.h"
 

@@ -1,7 +1,7 @@
 /* The zero of the angle by the torques of two recordings: against the normal equations of a linear model with
  * what is known beforehand, solved by elimination, and against the probability of both torques, whose
  * covariance is what is not known of each. */
-#include "host/check/run_zero.h"
+#include "host/check/relations/run_zero.h"
 
 #include <math.h>
 

@@ -1,6 +1,8 @@
 /* What is said of a reluctance torque that a machine does not declare, and how a finding of its own goes
  * before all others. */
-#include "host/check/own_findings.c"
+#include "host/check/finding.c"
+
+#include <math.h>
 
 #include "unity.h"
 
@@ -63,7 +65,7 @@ static void test_little_room(void)
 static void put(const char *slip)
 {
     const hci_check_finding f = {.slip = slip};
-    put_first(&check, &f);
+    hci_check_put_first(&check, &f);
 }
 
 /* Each goes before those that there are, which all stay; of as many as there may be the last one leaves. */
@@ -85,9 +87,9 @@ static void test_what_is_proved_comes_first(void)
 
 static void test_names_of_paths(void)
 {
-    TEST_ASSERT_EQUAL_STRING("a.csv", name_of("runs/x/a.csv"));
-    TEST_ASSERT_EQUAL_STRING("a.csv", name_of("a.csv"));
-    TEST_ASSERT_EQUAL_STRING("", name_of("runs/"));
+    TEST_ASSERT_EQUAL_STRING("a.csv", hci_check_name_of("runs/x/a.csv"));
+    TEST_ASSERT_EQUAL_STRING("a.csv", hci_check_name_of("a.csv"));
+    TEST_ASSERT_EQUAL_STRING("", hci_check_name_of("runs/"));
 }
 
 int main(void)

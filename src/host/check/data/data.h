@@ -60,7 +60,7 @@ typedef struct {
 
 /* The recorded angle is turned into an electrical one by a factor; so many factors can interpretations ask
  * for. */
-enum { CHECK_SCALES = 6, CHECK_FORWARD = 0, CHECK_BACKWARD = 1 };
+enum { CHECK_SCALES = 12, CHECK_FORWARD = 0, CHECK_BACKWARD = 1 };
 
 /* Means of x e^{∓jθ}, θ = scale × recorded angle: of waves that turn with the rotor, and against it. */
 typedef struct {
@@ -113,6 +113,7 @@ typedef struct {
                               cogging torque, and its size as far as the speed was held */
     bool is_electrical;    /* the angle is theta_e */
     double given_zero_rad; /* electrical, that the user adds to the angle; 0: none */
+    bool is_exchanged;     /* angle and torque stand in each other's column, as it seems */
     bool dq_is_steady;     /* i_d, i_q are more than noise about 0 */
     bool has_abc, has_dq, has_voltage, has_speed, has_torque;
     bool has_phase_voltage, has_dq_voltage; /* one of them where has_voltage */

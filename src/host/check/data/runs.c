@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/check/data/exchanged_angle.h"
 #include "host/check/data/run_parts.h"
 #include "host/numeric/statistics.h"
 #include "host/recording/computed_torque.h"
@@ -139,6 +140,7 @@ static hci_status run_take(const hci_csv *csv, check_data *data, check_run *file
         s.torque = NULL;
     }
     if (!status) file->current_way = current_way(&s, file);
+    if (!status) file->is_exchanged = hci_check_is_exchanged(s.theta, s.torque, s.count);
     if (!status && !parts_take(&s, file, data)) status = hci_note_memory(note, file->path, "its samples");
     hci_check_samples_release(&s);
     return status;
@@ -167,15 +169,16 @@ static void add_scale(check_data *data, double scale)
     data->scale[data->scales++] = scale;
 }
 
-/* 1, p and p/2 electrical radians for a recorded one, and so for degrees. */
+/* 1, p and p/2 electrical radians for a recorded one, and so for degrees and turns, and for radians
+ * that were read as degrees. */
 static void scales_make(check_data *data)
 {
     const double p = data->value[CHECK_pole_pairs];
-    for (int degrees = 0; degrees <= 1; ++degrees) {
-        const double unit = degrees ? DEGREE : 1.0;
-        add_scale(data, unit);
-        add_scale(data, unit * p);
-        if (fmod(p, 2.0) == 0.0) add_scale(data, unit * 0.5 * p);
+    static const double UNIT[] = {1.0, DEGREE, 2.0 * HCI_PI, 1.0 / DEGREE};
+    for (size_t k = 0; k < sizeof UNIT / sizeof *UNIT; ++k) {
+        add_scale(data, UNIT[k]);
+        add_scale(data, UNIT[k] * p);
+        if (fmod(p, 2.0) == 0.0) add_scale(data, UNIT[k] * 0.5 * p);
     }
 }
 

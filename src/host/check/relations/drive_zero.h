@@ -5,7 +5,7 @@
 #ifndef HCI_SRC_HOST_CHECK_DRIVE_ZERO_H
 #define HCI_SRC_HOST_CHECK_DRIVE_ZERO_H
 
-#include "host/check/interpreted_run.h"
+#include "host/check/relations/interpreted_run.h"
 
 /* rad; drives find their own zero as well as that. */
 #define CHECK_DRIVE_ZERO_TOLERANCE 0.06

@@ -1,8 +1,4 @@
-#include "host/check/relations.h"
-
-#include <assert.h>
-
-#include "hci/host/check/check.h"
+#include "host/check/relations/relations.h"
 
 static const check_relation_list *const LISTS[] = {&HCI_CHECK_TABLE_RELATIONS,  &HCI_CHECK_WAVE_RELATIONS,
                                                    &HCI_CHECK_TORQUE_RELATIONS, &HCI_CHECK_COGGING_RELATIONS,
@@ -14,7 +10,6 @@ size_t hci_check_relation_count(void)
     size_t count = 0;
     for (int k = 0; k < LIST_COUNT; ++k)
         count += LISTS[k]->count;
-    assert(count <= HCI_CHECK_MOST_EVIDENCE);
     return count;
 }
 

@@ -1,7 +1,7 @@
 /* What must hold among the three phases of a recording. */
 #include <math.h>
 
-#include "host/check/relations.h"
+#include "host/check/relations/relations.h"
 
 static check_value current_sum(const check_data *data, const check_interpretation *as, const check_model *m)
 {

@@ -4,7 +4,7 @@
 #ifndef HCI_SRC_HOST_CHECK_RELATION_H
 #define HCI_SRC_HOST_CHECK_RELATION_H
 
-#include "host/check/interpretation.h"
+#include "host/check/relations/interpretation.h"
 
 typedef enum {
     CHECK_RATIO, /* found/expected, by its logarithm */

@@ -4,8 +4,8 @@
  * Low multiples of each are likely, high ones are not. */
 #include <math.h>
 
-#include "host/check/pole_pairs.h"
-#include "host/check/relations.h"
+#include "host/check/relations/pole_pairs.h"
+#include "host/check/relations/relations.h"
 
 enum { MOST_SLOTS = 108, MOST_GRADE = 12 };
 

@@ -1,7 +1,7 @@
 /* What must hold for currents, voltages and speed of the recordings. */
 #include <math.h>
 
-#include "host/check/relations.h"
+#include "host/check/relations/relations.h"
 
 #define SQRT3 1.7320508075688772
 

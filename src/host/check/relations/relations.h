@@ -5,8 +5,8 @@
 #ifndef HCI_SRC_HOST_CHECK_RELATIONS_H
 #define HCI_SRC_HOST_CHECK_RELATIONS_H
 
-#include "host/check/interpreted_run.h"
-#include "host/check/relation.h"
+#include "host/check/relations/interpreted_run.h"
+#include "host/check/relations/relation.h"
 
 /* Tolerances are one standard deviation: of a bench 5 % (magnets 25 K warmer or colder 3 %, sensors 2 %, iron
  * 3 %), of power with what the iron takes 8 %, of a sheet's torque 8 % above what the current makes and twice

@@ -1,4 +1,4 @@
-#include "host/check/interpreted_run.h"
+#include "host/check/relations/interpreted_run.h"
 
 #include <math.h>
 

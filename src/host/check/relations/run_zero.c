@@ -1,10 +1,10 @@
-#include "host/check/run_zero.h"
+#include "host/check/relations/run_zero.h"
 
 #include <math.h>
 
 #include "hci/math/dense.h"
-#include "host/check/drive_zero.h"
-#include "host/check/relations.h"
+#include "host/check/relations/drive_zero.h"
+#include "host/check/relations/relations.h"
 
 /* Of the torque of a recording, beside what its currents make by the magnets: iron, and what else. */
 #define TORQUE_UNKNOWN 0.04

@@ -1,7 +1,7 @@
 /* What must hold for power and torque of the recordings under load. */
 #include <math.h>
 
-#include "host/check/relations.h"
+#include "host/check/relations/relations.h"
 #include "host/recording/slow_turn.h"
 
 #define SQRT3 1.7320508075688772

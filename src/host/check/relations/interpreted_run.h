@@ -5,7 +5,7 @@
 #ifndef HCI_SRC_HOST_CHECK_INTERPRETED_RUN_H
 #define HCI_SRC_HOST_CHECK_INTERPRETED_RUN_H
 
-#include "host/check/interpretation.h"
+#include "host/check/relations/interpretation.h"
 
 /* Electrical angle per recorded angle; negative where the angle is counted backward. */
 double hci_check_scale_of(const check_run *r, const check_interpretation *as, const check_model *m);

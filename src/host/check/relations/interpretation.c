@@ -1,4 +1,4 @@
-#include "host/check/interpretation.h"
+#include "host/check/relations/interpretation.h"
 
 #include <math.h>
 

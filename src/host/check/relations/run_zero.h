@@ -5,7 +5,7 @@
 #ifndef HCI_SRC_HOST_CHECK_RUN_ZERO_H
 #define HCI_SRC_HOST_CHECK_RUN_ZERO_H
 
-#include "host/check/interpreted_run.h"
+#include "host/check/relations/interpreted_run.h"
 
 typedef struct {
     bool is_known; /* the recordings have what tells it, in whatever interpretation */

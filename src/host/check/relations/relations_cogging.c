@@ -1,7 +1,7 @@
 /* What must hold for the torque without current: the cogging torque. */
 #include <math.h>
 
-#include "host/check/relations.h"
+#include "host/check/relations/relations.h"
 
 /* Nothing but the cogging torque: without current, or balanced by it while the shaft was held. */
 static check_run *unloaded_torque(const check_data *data)

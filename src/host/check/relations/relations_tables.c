@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "hci/host/machine/init.h"
-#include "host/check/relations.h"
+#include "host/check/relations/relations.h"
 
 #define SQRT3 1.7320508075688772
 

@@ -1,8 +1,8 @@
-#include "host/check/drive_zero.h"
+#include "host/check/relations/drive_zero.h"
 
 #include <math.h>
 
-#include "host/check/relations.h"
+#include "host/check/relations/relations.h"
 
 /* Directions that are one: cos 2x of the mean, which is 4 degrees. */
 #define ONE_DIRECTION 0.99

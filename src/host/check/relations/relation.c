@@ -1,4 +1,4 @@
-#include "host/check/relation.h"
+#include "host/check/relations/relation.h"
 
 #include <math.h>
 #include <string.h>
