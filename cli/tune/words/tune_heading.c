@@ -62,14 +62,22 @@ static void say_doubtful(const cli_tuning *t, double before_Nm, char *text, size
 {
     const cli_tune_ripple x = cli_tune_recorded_ripple(t);
     char current[32] = "without current";
-    snprintf(text, size,
-             "%s, so what the table leaves of the ripple is not to be relied on and may be more than a plain "
-             "sine leaves",
-             isfinite(t->solution.expected.unbelievable_order)
-                 ? "A back-EMF that is not believable is in the model"
-             : t->diagnosis.verdict < HCI_DIAGNOSIS_PARTLY
-                 ? "The search for what makes the ripple ended before all was compared"
-                 : "The model does not explain the recordings");
+    if (t->diagnosis.means_alone)
+        snprintf(
+            text, size,
+            "The ripple of the recordings is explained, and the mean torque of each is not, as where "
+            "friction or the zero of the torque sensor is another one from run to run, so what the table "
+            "leaves of the ripple has no bound");
+    else
+        snprintf(
+            text, size,
+            "%s, so what the table leaves of the ripple is not to be relied on and may be more than a plain "
+            "sine leaves",
+            isfinite(t->solution.expected.unbelievable_order)
+                ? "A back-EMF that is not believable is in the model"
+            : t->diagnosis.verdict < HCI_DIAGNOSIS_PARTLY
+                ? "The search for what makes the ripple ended before all was compared"
+                : "The model does not explain the recordings");
     if (x.current_A > 0.0) snprintf(current, sizeof current, "at %.3g A", x.current_A);
     if (x.run < t->runs.count)
         snprintf(text + strlen(text), size - strlen(text),

@@ -8,7 +8,7 @@
 enum { INERTIA };
 
 static const hci_effect_parameter PARAMETER[] = {
-    HCI_PLAIN("inertia", "kgm2", "of all that turns between the air gap and the sensor", 0.0, -DBL_MAX,
+    HCI_PLAIN("inertia", "kgm2", "of all that turns between the air gap and the sensor", 0.0, 0.0,
               HCI_PARAMETER_LINEAR | HCI_PARAMETER_WITH_SPEED | HCI_PARAMETER_OF_TRANSDUCER),
 };
 

@@ -22,6 +22,7 @@
 #include "host/diagnose/run_errors.h"
 #include "host/diagnose/search/attribute.h"
 #include "host/diagnose/search/backward.h"
+#include "host/diagnose/standing_torque.h"
 #include "host/diagnose/uncertainty.h"
 #include "host/machine/torque_constant.h"
 #include "host/numeric/statistics.h"
@@ -160,8 +161,10 @@ static hci_status fill(hci_dataset *b, const hci_runs *runs, hci_attribution *a,
     zeros_fill(&b->samples, d);
     hci_unexplained_fill(b, a, d);
     hci_candidates_remove_type(&a->model.candidates, &hci_empirical_type);
+    hci_status status = hci_standing_torque_judge(&b->regression, a, note);
+    if (status) return status;
     const hci_alternatives others = alternatives_of(a);
-    hci_status status = effects_fill(&b->regression, &a->model.candidates, d, note);
+    status = effects_fill(&b->regression, &a->model.candidates, d, note);
     if (!status && !a->unknown && a->ended == HCI_WORK_COMPLETE) /* of a model that had no rival: no bound */
         status = hci_uncertainty_find(&b->regression, &a->model.candidates, &others, &d->uncertainty, note);
     if (status == HCI_ERROR_STOPPED) { /* all else is known */

@@ -184,6 +184,9 @@ void hci_findings_fill(const hci_attribution *a, hci_diagnosis *d)
     }
     if (a->unknown) hci_finding_unknown_put(d, a->unexplained_Nm, left_words(a));
     d->inertia_as_well = a->inertia_as_well;
+    d->standing_taken = a->standing_taken;
+    d->standing_instead = a->standing_instead;
+    d->standing_share = a->standing_share;
     d->sensors_as_well = a->sensors_as_well;
     d->magnetic_only = a->magnetic_only;
     d->verdict = verdict_of(a, d);

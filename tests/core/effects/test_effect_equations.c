@@ -1159,6 +1159,7 @@ static void test_rotor_inertia_takes_what_accelerates_it(void)
                                   hci_effects_predict(&m.machine, &l.list, &x, &by));
         TEST_ASSERT_EQUAL_DOUBLE(-30.0 * k, by);
     }
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, l.effect[0].type->parameter[0].least); /* what drives is no inertia */
 }
 
 /* A column of regressors is filtered like the torque. */

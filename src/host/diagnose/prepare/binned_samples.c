@@ -22,6 +22,7 @@ enum {
     BINS_PER_TURN = 4096, /* of a mean over turns */
     OF_PERIOD = 180,      /* of them, for each electrical period in it, that are left where they are joined */
     MOST_JOINED = 4,
+    MOST_ALONG = 8,     /* samples along time that are joined, of runs that have more than so fine bins */
     MOST_OF_MANY = 5,   /* where all runs together have many samples */
     LEAST_TURNS = 3,    /* for such a mean */
     LEAST_SPARSE = 8,   /* turns that show between the samples of one what those of the others do */
@@ -297,25 +298,69 @@ static bool mean_segment(const reduction *x, const hci_turn *turns, size_t count
 
 /* ---- samples as they are ---- */
 
-static bool open_segment(const reduction *x, size_t first, size_t count)
+/* Adds the next sample in time to the mean of those before it. One of a shaft at rest tells no torque, and
+ * then the mean does not either. */
+static void sample_join(const reduction *x, hci_binned_sample *c, const hci_binned_sample *next)
 {
-    hci_segment s = {x->index, x->samples->count, count, 0, 0.0, x->run->time_s != NULL, false, 1.0};
-    hci_binned_sample *sample = reserve(x, count);
+    if (!(c->count > 0.0)) return;
+    if (!(next->count > 0.0)) {
+        c->count = 0.0;
+        return;
+    }
+    const double time_s = (c->count * c->time_s + next->time_s) / (c->count + 1.0);
+    mean_join(x, c, next);
+    c->time_s = time_s;
+}
+
+/* Samples as they are, or each the mean of so many that follow each other. */
+static bool open_segment(const reduction *x, size_t first, size_t count, size_t joined)
+{
+    const size_t samples = count / joined;
+    hci_segment s = {x->index, x->samples->count,      samples, 0,
+                     0.0,      x->run->time_s != NULL, false,   (double)joined};
+    hci_binned_sample *sample = reserve(x, samples);
     if (!sample) return false;
-    for (size_t k = 0; k < count; ++k)
-        sample_of(x, first + k, &sample[k]);
-    x->samples->count += count;
+    for (size_t k = 0; k < samples * joined; ++k) {
+        hci_binned_sample one;
+        sample_of(x, first + k, &one);
+        if (k % joined == 0)
+            sample[k / joined] = one;
+        else
+            sample_join(x, &sample[k / joined], &one);
+    }
+    x->samples->count += samples;
     return segment_finish(x, &s);
+}
+
+/* Samples of an electrical period, where the shaft turns on; 0: it does not. */
+static double per_period(const reduction *x, size_t first, size_t count)
+{
+    const double *theta = x->run->theta_m_rad;
+    const double periods =
+        theta ? fabs(theta[first + count - 1] - theta[first]) * x->pole_pairs / (2.0 * HCI_PI) : 0.0;
+    return periods > 1.0 ? (double)count / periods : 0.0;
+}
+
+/* How many samples that follow each other are joined to one, of a segment that would be cut, and that are
+ * finer than the bins of a mean over turns: as fine as these, and as the finest order needs. */
+static size_t joined_along(const reduction *x, size_t first, size_t count)
+{
+    const double finest = PER_PERIOD * x->finest_order / x->pole_pairs;
+    const bool may = count > HCI_LONGEST_SEGMENT && x->run->torque_source == HCI_TORQUE_MEASURED &&
+                     x->follows_Nm_per_A == 0.0;
+    const double joined = may ? per_period(x, first, count) / fmax(OF_PERIOD, finest) : 1.0;
+    return joined < 2.0 ? 1 : joined > MOST_ALONG ? MOST_ALONG : (size_t)joined;
 }
 
 /* A recording that is not steady and too long for all of it: at most so many parts of it, evenly spread. */
 static bool spread_segments(const reduction *x, size_t first, size_t count, size_t most)
 {
-    const size_t pieces = (count + HCI_LONGEST_SEGMENT - 1) / HCI_LONGEST_SEGMENT;
+    const size_t joined = joined_along(x, first, count), longest = joined * HCI_LONGEST_SEGMENT;
+    const size_t pieces = (count + longest - 1) / longest;
     const size_t kept = pieces < most ? pieces : most;
     for (size_t k = 0; k < kept; ++k) {
         const size_t piece = pieces * k / kept, length = count / pieces;
-        if (!open_segment(x, first + piece * length, length)) return false;
+        if (!open_segment(x, first + piece * length, length, joined)) return false;
     }
     return true;
 }
@@ -525,7 +570,7 @@ static bool run_reduce(reduction *x)
     hci_turn *turns = NULL;
     size_t count = 0;
     bool worth = false;
-    if (x->run->only_mean) return open_segment(x, 0, x->run->count);
+    if (x->run->only_mean) return open_segment(x, 0, x->run->count, 1);
     bool done = hci_turns_find(x->run, x->pole_pairs, &turns, &count);
     done = done && follows_find(x, turns, count);
     if (done) x->samples->statistics[x->index].creeps = any_creeps(x, turns, count);
@@ -568,7 +613,8 @@ static double finest_order(const hci_machine *machine)
 {
     double finest = 0.0;
     for (size_t k = 0; k < machine->cogging_count; ++k)
-        finest = fmax(finest, machine->cogging[k].order);
+        if (hypot(machine->cogging[k].sine, machine->cogging[k].cosine) > 0.0)
+            finest = fmax(finest, machine->cogging[k].order);
     return finest * machine->pole_pairs;
 }
 

@@ -41,6 +41,9 @@ typedef struct {
     double disbelieved_share;           /* of the declared torque per ampere, that it leaves */
     bool magnetic_only;                 /* direct current alone: beside iron nothing else was looked for */
     bool inertia_as_well;               /* a wrong inertia looks the same as an effect that is in */
+    const char *standing_taken, *standing_instead; /* what is in and what may stand for it in the means, in
+                                                    * words; NULL: told, or neither is there. Static */
+    double standing_share; /* by which the torque per ampere is larger with the other one */
     bool sensors_as_well; /* current sensors that read each other's current make what sensors and phases do */
     bool means_open;  /* what was found of the means of the runs says nothing of those left out, and is out */
     bool means_alone; /* and nothing but those means is left */

@@ -10,6 +10,7 @@
 #include "host/diagnose/search/coenergy.h"
 #include "host/diagnose/search/forward.h"
 #include "host/diagnose/search/noise_left.h"
+#include "host/diagnose/search/scaled.h"
 #include "host/diagnose/search/stability.h"
 
 #define NOT_SMALL   2.0  /* times the resolution: rms of a residual that has to be understood */
@@ -182,12 +183,30 @@ static hci_status unpredicted_leave(hci_search *s, hci_candidates *model, hci_no
     return status;
 }
 
+/* Whether a candidate of the iron or the magnets makes mean torque at currents that do not vary: order 1 of
+ * the back-EMF, order 0 of an inductance. */
+static bool makes_mean(const hci_candidate *x)
+{
+    bool all = x->type->propose_coenergy != NULL;
+    for (size_t j = 0; j < x->count; ++j)
+        all = all && x->term[j].order <= 1.0 + HCI_ORDER_TOLERANCE;
+    return all;
+}
+
+/* What the ripple does not tell takes any value that suits. */
+static void mean_terms_leave(hci_candidates *model)
+{
+    for (size_t k = 0; k < model->count; ++k)
+        if (model->candidate[k].in && makes_mean(&model->candidate[k])) model->candidate[k].in = false;
+}
+
 /* Keeps what stands in the ripple alone. What is left of the means then, more than noise, is not known. */
 static hci_status means_leave(hci_search *s, hci_attribution *a, hci_note *note)
 {
     hci_candidates *model = &a->model.candidates;
     s->regression->free_means = true;
     hci_candidates_remove_type(model, &hci_empirical_type);
+    mean_terms_leave(model);
     hci_status status = hci_search_renew(s, &a->model, note);
     if (!status) status = hci_search_keep_predictive(s, &a->model, note);
     if (!status) status = unpredicted_leave(s, model, note);
@@ -407,15 +426,109 @@ static hci_status means_ask(hci_search *s, hci_attribution *a, hci_note *note)
     return status ? status : hci_search_renew(s, &a->model, note);
 }
 
+/* Of the ripple, that effects leave which describe it. */
+#define OF_RIPPLE 0.3
+
+/* The ripple of all runs that a model leaves, whatever their means are. */
+static hci_status ripple_left(hci_search *s, hci_fitted_model *model, double *left_Nm, hci_note *note)
+{
+    hci_status status = hci_regression_fit(s->regression, &model->candidates, &model->fit, note);
+    if (!status) status = hci_search_residual(s, &model->candidates, note);
+    *left_Nm = status ? 0.0 : ripple_rms(s);
+    return status;
+}
+
+/* Whether a model, which has lost what was not believed, describes the ripple all the same. */
+static hci_status is_ripple_known(hci_search *s, hci_fitted_model *model, bool *known, hci_note *note)
+{
+    hci_fitted_model none = {0};
+    double before_Nm = 0.0, after_Nm = 0.0;
+    s->regression->free_means = true;
+    hci_status status = ripple_left(s, &none, &before_Nm, note);
+    if (!status) status = ripple_left(s, model, &after_Nm, note);
+    s->regression->free_means = false;
+    *known = !status && after_Nm < OF_RIPPLE * before_Nm;
+    return status;
+}
+
+/* Of the mean torques, by which the declared machine may be off and is the one that was recorded. */
+#define ABOUT 0.5
+
+static hci_status are_means_about(hci_search *s, bool *about, hci_note *note)
+{
+    static const hci_candidates none = {0};
+    double share = 0.0;
+    const hci_status status = hci_search_mean_share(s, &none, &share, note);
+    *about = !status && share < ABOUT;
+    return status;
+}
+
+/* Of the largest current, that is a load, and by which two loads are one. */
+#define LOADED    0.1
+#define LIKE_LOAD 0.8
+
+static bool is_one_load(const hci_search *s)
+{
+    double least_A = INFINITY, most_A = 0.0;
+    for (int pass = 0; pass < 2; ++pass)
+        for (size_t r = 0; r < s->regression->samples->run_count; ++r) {
+            const hci_run_statistics *x = &s->regression->samples->statistics[r];
+            const double i_A = hypot(x->mean_id_A, x->mean_iq_A);
+            if (!s->regression->use[r]) continue;
+            most_A = fmax(most_A, i_A);
+            if (pass > 0 && i_A > LOADED * most_A) least_A = fmin(least_A, i_A);
+        }
+    return least_A > LIKE_LOAD * most_A;
+}
+
+/* Whether its ripple grows faster than the current. */
+static bool is_of_squares(const hci_candidate *x)
+{
+    const unsigned traits = x->type->parameter[x->term[0].parameter].traits;
+    return x->type->beyond_quadratic || (x->type->propose_coenergy && (traits & HCI_PARAMETER_WITH_CURRENT) &&
+                                         !(traits & HCI_PARAMETER_WITH_LOAD));
+}
+
+/* At one load a ripple is that of the magnets at any other, too, as far as is known. */
+static void squares_leave(hci_candidates *model)
+{
+    for (size_t k = 0; k < model->count; ++k)
+        if (model->candidate[k].in && is_of_squares(&model->candidate[k])) model->candidate[k].in = false;
+}
+
+/* Where settling took effects out for the sake of means that nothing explains, those that describe the ripple
+ * stay; not of another machine. before: the model that was
+ * settled; left empty. */
+static hci_status ripple_stays(hci_search *s, hci_attribution *a, hci_fitted_model *before, hci_note *note)
+{
+    bool known = false, about = false;
+    if (!a->unknown || a->means_open || s->ended != HCI_WORK_COMPLETE ||
+        hci_candidates_types_in(&a->model.candidates) >= hci_candidates_types_in(&before->candidates))
+        return HCI_OK;
+    hci_candidates_remove_type(&before->candidates, &hci_empirical_type);
+    mean_terms_leave(&before->candidates);
+    if (is_one_load(s)) squares_leave(&before->candidates);
+    hci_status status = are_means_about(s, &about, note);
+    if (!status && about) status = is_ripple_known(s, before, &known, note);
+    if (status || !known) return status;
+    hci_fitted_model_replace(&a->model, before);
+    s->whole_coenergy = false;
+    return means_leave(s, a, note);
+}
+
 /* Judging finds the noise anew, and scores are comparable with the same noise only. */
 hci_status hci_search_settle(hci_search *s, hci_attribution *a, hci_note *note)
 {
+    hci_fitted_model before = {0};
     bool unpredicted = false;
     hci_status status = mirror_ask(s, &a->model, note);
     if (!status) status = means_judge(s, a, &unpredicted, note);
     if (!status && !a->means_open) status = cancelling_ask(s, &a->model, note);
     if (!status && !a->means_open) status = hci_search_keep_brakes(s, &a->model, note);
+    if (!status && !a->means_open) status = hci_fitted_model_copy(&a->model, &before, note);
     if (!status && !a->means_open) status = settle(s, unpredicted, a, note);
+    if (!status) status = ripple_stays(s, a, &before, note);
+    hci_fitted_model_release(&before);
     if (!status) status = hci_search_renew(s, &a->model, note);
     return status ? status : means_ask(s, a, note);
 }

@@ -23,11 +23,17 @@ static bool is_named(const hci_finding *f, hci_finding_verdict verdict)
     return f->verdict == verdict && strcmp(f->effect, "unknown") != 0;
 }
 
+static size_t count_of(const hci_diagnosis *d, hci_finding_verdict verdict)
+{
+    size_t count = 0;
+    for (size_t k = 0; k < d->findings; ++k)
+        count += is_named(&d->finding[k], verdict);
+    return count;
+}
+
 static bool any(const hci_diagnosis *d, hci_finding_verdict verdict)
 {
-    for (size_t k = 0; k < d->findings; ++k)
-        if (is_named(&d->finding[k], verdict)) return true;
-    return false;
+    return count_of(d, verdict) > 0;
 }
 
 /* Names of the findings of one verdict: "cogging, friction and reluctance". parts: those of them that are
@@ -560,9 +566,27 @@ static void say_added(const hci_words *w, const hci_diagnosis *d)
     say_parts_of_whole(w, d);
 }
 
+enum { THESE_TWO = 2 };
+
+/* Where each direction of the turn has one load. */
+static void say_standing(const hci_words *w, const hci_diagnosis *d)
+{
+    hci_words_say(w,
+                  "%sWhether %s, as is taken, or %s is in the means is not told, since each direction of the "
+                  "turn has one load alone: with the other one the torque per ampere, and the mean torque of "
+                  "any currents, is %.2g %% %s. A turn of each load the other way, or idle turns both ways, "
+                  "would tell.",
+                  any(d, HCI_FINDING_ADDED) ? " " : "", d->standing_taken, d->standing_instead,
+                  100.0 * fabs(d->standing_share), d->standing_share > 0.0 ? "larger" : "smaller");
+}
+
 static void say_ambiguous(const hci_words *w, const hci_diagnosis *d)
 {
     say_added(w, d);
+    if (d->standing_taken) {
+        say_standing(w, d);
+        if (count_of(d, HCI_FINDING_AMBIGUOUS) <= THESE_TWO) return;
+    }
     hci_words_say(w, "%sThese recordings do not tell ", any(d, HCI_FINDING_ADDED) ? " " : "");
     say_names(w, d, HCI_FINDING_AMBIGUOUS, d->inertia_as_well ? ", " : " and ");
     hci_words_say(w, "%s",

@@ -123,8 +123,33 @@ static void test_a_part_of_a_turn_like_the_others(void)
         for (size_t p = 0; p < 3; ++p)
             run.i_A[3 * k + p] *= 1.5;
     reduce();
-    TEST_ASSERT_EQUAL_UINT64(3, binned.segment_count);
-    TEST_ASSERT_EQUAL_UINT64(0, binned.segment[2].turns);
+    TEST_ASSERT_EQUAL_UINT64(2, binned.segment_count);
+    TEST_ASSERT_EQUAL_UINT64(0, binned.segment[1].turns);
+    TEST_ASSERT_EQUAL_DOUBLE(8.0, binned.segment[1].joined);
+}
+
+/* Two turns are no mean. Of 3000 samples in an electrical period eight that follow each other are one, of
+ * some 540 three, and of fewer than twice 180 none; in none the torque is that of its own angle. */
+static void test_fine_samples_along_time_are_joined(void)
+{
+    static const double SAMPLES[] = {9000.0, 3.0 * 541.0, 3.0 * 359.0}, JOINED[] = {8.0, 3.0, 1.0};
+    for (int c = 0; c < 3; ++c) {
+        const double turns = c > 0 ? 2.9 * 2.0 : 2.0; /* of another current in each half */
+        turn_steadily(turns, SAMPLES[c], 5.0);
+        for (size_t k = 0; k < run.count; ++k)
+            rec_phases(-1.0, 3.0 + 0.2 * sin(run.theta_m_rad[k] / turns), P * run.theta_m_rad[k],
+                       run.i_A + 3 * k);
+        reduce();
+        TEST_ASSERT_EQUAL_UINT64(0, binned.segment[0].turns);
+        TEST_ASSERT_EQUAL_DOUBLE(JOINED[c], binned.segment[0].joined);
+        for (size_t k = 0; k < binned.count; ++k) {
+            const hci_binned_sample *x = &binned.sample[k];
+            TEST_ASSERT_EQUAL_DOUBLE(JOINED[c], x->count);
+            TEST_ASSERT_DOUBLE_WITHIN(6.0 * NOISE_NM / sqrt(x->count), torque_at(x->raw.theta_m_rad),
+                                      x->torque_Nm);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-9, 5.0 + (x->raw.theta_m_rad - 0.3) / 5.0, x->time_s);
+        }
+    }
 }
 
 /* Short recordings stay as they are, unless a turn has too few samples for the declared cogging torque, 18
@@ -476,6 +501,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_turns_become_one_mean);
     RUN_TEST(test_a_part_of_a_turn_like_the_others);
+    RUN_TEST(test_fine_samples_along_time_are_joined);
     RUN_TEST(test_sparse_turns_become_one_mean);
     RUN_TEST(test_many_short_runs_become_means);
     RUN_TEST(test_slow_noise_stays);

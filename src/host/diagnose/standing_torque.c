@@ -1,0 +1,202 @@
+#include "host/diagnose/standing_torque.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "hci/math/harmonic.h"
+#include "host/diagnose/fit/fit.h"
+#include "host/diagnose/fit/model.h"
+#include "host/diagnose/search/search.h"
+#include "host/machine/torque_constant.h"
+
+/* ---- what stands in a mean */
+
+enum { ZERO, FRICTION, SALIENCY, KINDS };
+
+static const char *const NAME[KINDS] = {"the zero of the torque sensor", "the friction",
+                                        "a reluctance torque that is not declared"};
+
+/* One term of an effect. */
+typedef struct {
+    const hci_effect_type *type; /* NULL: there is no such effect */
+    size_t parameter;
+} standing;
+
+static bool is_zero(const hci_effect_type *type, size_t k)
+{
+    const hci_effect_parameter *p = &type->parameter[k];
+    return p->traits == (HCI_PARAMETER_OF_TRANSDUCER | HCI_PARAMETER_LINEAR) && strcmp(p->unit, "Nm") == 0;
+}
+
+static bool is_coulomb(const hci_effect_type *type, size_t k)
+{
+    return k == 0 && type->coulomb_Nm && type->propose_alike;
+}
+
+/* Of an inductance the first value that has an order 0: beside that of L_d the one of L_q makes no other
+ * torque. */
+static bool is_saliency(const hci_effect_type *type, size_t k)
+{
+    const unsigned traits = type->parameter[k].traits;
+    return type->propose_coenergy && !type->beyond_quadratic && (traits & HCI_PARAMETER_WITH_CURRENT) &&
+           !(traits & HCI_PARAMETER_WITH_LOAD) && !(type->parameter[k].least_order > 0.0);
+}
+
+static standing standing_of(int kind)
+{
+    static bool (*const IS[KINDS])(const hci_effect_type *, size_t) = {is_zero, is_coulomb, is_saliency};
+    for (size_t t = 0; t < hci_candidate_types(); ++t)
+        for (size_t k = 0; k < hci_candidate_type(t)->parameter_count; ++k)
+            if (IS[kind](hci_candidate_type(t), k)) return (standing){hci_candidate_type(t), k};
+    return (standing){NULL, 0};
+}
+
+/* The candidate of the model that is this term alone; NULL: none. */
+static hci_candidate *find(const hci_candidates *model, standing x)
+{
+    for (size_t k = 0; k < model->count; ++k) {
+        hci_candidate *c = &model->candidate[k];
+        if (c->in && c->type == x.type && c->count == 1 && c->term[0].parameter == x.parameter &&
+            fabs(c->term[0].order) <= HCI_ORDER_TOLERANCE)
+            return c;
+    }
+    return NULL;
+}
+
+/* Whether the model, or the machine as it is declared, has it, or more of the kind. */
+static bool has(const hci_regression *e, const hci_candidates *model, int kind)
+{
+    const standing x = standing_of(kind);
+    if (kind == ZERO) return find(model, x) != NULL;
+    if (kind == SALIENCY && e->machine->slope_count > 0) return true;
+    return hci_candidates_have(model, x.type);
+}
+
+/* ---- one in the place of another */
+
+/* The torque per ampere, which then is another one. */
+static standing torque_per_ampere(void)
+{
+    for (size_t t = 0; t < hci_candidate_types(); ++t)
+        for (size_t k = 0; k < hci_candidate_type(t)->parameter_count; ++k)
+            if (hci_candidate_type(t)->parameter[k].traits & HCI_PARAMETER_WITH_LOAD)
+                return (standing){hci_candidate_type(t), k};
+    return (standing){NULL, 0};
+}
+
+static bool has_order(const hci_candidates *model, standing x, double order)
+{
+    for (size_t k = 0; k < model->count; ++k) {
+        const hci_candidate *c = &model->candidate[k];
+        if (c->in && c->type == x.type && c->term[0].parameter == x.parameter &&
+            fabs(c->term[0].order - order) <= HCI_ORDER_TOLERANCE)
+            return true;
+    }
+    return false;
+}
+
+static hci_status add(hci_candidates *model, standing x, double order, hci_note *note)
+{
+    const hci_candidate more = {
+        .type = x.type, .term = {{.parameter = x.parameter, .order = order}}, .count = 1, .in = true};
+    return has_order(model, x, order) ? HCI_OK : hci_candidates_add(model, &more, note);
+}
+
+typedef struct {
+    const hci_regression *regression;
+    hci_attribution *a;
+    int out, in; /* kinds */
+    hci_fitted_model other;
+} exchange;
+
+static hci_status fit_other(exchange *x, hci_note *note)
+{
+    hci_candidates *other = &x->other.candidates;
+    hci_status status = hci_fitted_model_copy(&x->a->model, &x->other, note);
+    if (status) return status;
+    find(other, standing_of(x->out))->in = false;
+    status = add(other, standing_of(x->in), 0.0, note);
+    if (!status) status = add(other, torque_per_ampere(), 1.0, note);
+    return status ? status : hci_regression_fit(x->regression, other, &x->other.fit, note);
+}
+
+/* Of what the model leaves beside the noise, that is by other causes: a difference that is less does not
+ * tell. */
+#define OTHER_CAUSES 0.05
+
+/* A friction that drives is none. */
+static bool is_as_good(const exchange *x)
+{
+    const hci_candidate *in = find(&x->other.candidates, standing_of(x->in));
+    const hci_fit *fit = &x->a->model.fit;
+    const double untold = fmax(HCI_DECISIVE, OTHER_CAUSES * (fit->square - fit->rows));
+    return x->other.fit.square < fit->square + untold && (x->in != FRICTION || in->term[0].value > 0.0);
+}
+
+static hci_status constant_of(const hci_regression *e, const hci_candidates *candidates,
+                              double *constant_Nm_per_A, hci_note *note)
+{
+    hci_model model;
+    const hci_status status = hci_model_make(e->declared, candidates, false, &model, note);
+    if (status) return status;
+    *constant_Nm_per_A = hci_torque_constant(e->machine, &model.list);
+    hci_model_release(&model);
+    return HCI_OK;
+}
+
+static hci_verdict *verdict_of(hci_attribution *a, int kind)
+{
+    size_t k = 0;
+    while (a->verdict[k].type != standing_of(kind).type)
+        ++k;
+    return &a->verdict[k];
+}
+
+/* Of several the one with which the torque per ampere differs most is told. */
+static hci_status tell(exchange *x, hci_note *note)
+{
+    double before, after;
+    hci_status status = constant_of(x->regression, &x->a->model.candidates, &before, note);
+    if (!status) status = constant_of(x->regression, &x->other.candidates, &after, note);
+    if (status) return status;
+    const double share = fabs(before) > 0.0 ? after / before - 1.0 : 0.0;
+    if (x->a->standing_taken && fabs(share) <= fabs(x->a->standing_share)) return HCI_OK;
+    x->a->standing_taken = NAME[x->out];
+    x->a->standing_instead = NAME[x->in];
+    x->a->standing_share = share;
+    return HCI_OK;
+}
+
+/* What else a type has in the model stays certain. */
+static void mark(exchange *x)
+{
+    hci_verdict *v = verdict_of(x->a, x->in), *of = verdict_of(x->a, x->out);
+    v->ambiguous = true;
+    v->rival_of = of->type;
+    of->ambiguous = of->ambiguous || !hci_candidates_have(&x->other.candidates, of->type);
+    hci_fitted_model_replace(&v->alternative, &x->other);
+}
+
+static hci_status try_one(exchange *x, hci_note *note)
+{
+    hci_status status = fit_other(x, note);
+    if (!status && is_as_good(x)) {
+        status = tell(x, note);
+        if (!status) mark(x);
+    }
+    hci_fitted_model_release(&x->other);
+    return status;
+}
+
+hci_status hci_standing_torque_judge(const hci_regression *e, hci_attribution *a, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    if (a->unknown || a->ended != HCI_WORK_COMPLETE) return HCI_OK;
+    for (int out = 0; out < KINDS && !status; ++out)
+        for (int in = 0; in < KINDS && !status; ++in) {
+            exchange x = {.regression = e, .a = a, .out = out, .in = in};
+            if (!find(&a->model.candidates, standing_of(out)) || has(e, &a->model.candidates, in)) continue;
+            if (!verdict_of(a, in)->ambiguous) status = try_one(&x, note);
+        }
+    return status;
+}

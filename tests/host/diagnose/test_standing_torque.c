@@ -1,0 +1,89 @@
+/* Means of recordings that two causes explain alike, and means that nothing explains: the ripple is known all
+ * the same. Some tenths of a second. */
+#include <math.h>
+#include <string.h>
+
+#include "support/diagnosing.h"
+
+enum { SAMPLES = 240 };
+
+static double gain; /* of the torque per ampere, of that which is declared */
+
+void setUp(void)
+{
+    dataset_start();
+    gain = 1.0;
+}
+
+void tearDown(void)
+{
+    dataset_end();
+}
+
+/* A machine with cogging torque of order 6 and a back-EMF of order 7; standing_Nm: added to each torque. */
+static void measure_at(double iq_A, double speed_rad_per_s, double standing_Nm)
+{
+    hci_run *r = add_run(8 * SAMPLES);
+    for (size_t k = 0; k < r->count; ++k) {
+        const double theta = (speed_rad_per_s < 0.0 ? -2.0 : 2.0) * REF_PI * (double)k / SAMPLES;
+        r->theta_m_rad[k] = theta / P;
+        r->time_s[k] = theta / P / speed_rad_per_s;
+        r->speed_rad_per_s[k] = speed_rad_per_s;
+        rec_phases(0.0, iq_A, theta, r->i_A + 3 * k);
+        for (int s = 0; s < 3; ++s) {
+            const double x = theta - 2.0 * REF_PI * s / 3.0;
+            r->torque_Nm[k] += (gain * K_NM_PER_A * sin(x) + 0.01 * sin(7.0 * x)) * r->i_A[3 * k + (size_t)s];
+        }
+        r->torque_Nm[k] += standing_Nm + 0.05 * sin(6.0 * theta + 0.4) + NOISE_NM * ref_normal(&seed);
+    }
+}
+
+#define DRAG_Nm 0.1
+
+/* A load forward and an idle turn back. */
+static void test_friction_or_the_zero_of_the_sensor(void)
+{
+    measure_at(8.0, 20.0, -DRAG_Nm);
+    measure_at(0.0, -20.0, DRAG_Nm);
+    TEST_ASSERT_EQUAL(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_NOT_NULL(diagnosis.standing_taken);
+    const bool has_zero = strstr(diagnosis.standing_taken, "sensor") != NULL;
+    TEST_ASSERT_NOT_NULL(strstr(diagnosis.standing_instead, has_zero ? "friction" : "sensor"));
+    const double share = 2.0 * DRAG_Nm / (1.5 * K_NM_PER_A * 8.0);
+    TEST_ASSERT_DOUBLE_WITHIN(0.1 * share, has_zero ? share : -share, diagnosis.standing_share);
+    TEST_ASSERT_EQUAL(HCI_FINDING_AMBIGUOUS, found(has_zero ? "friction" : "torque_sensor")->verdict);
+}
+
+/* The same with an idle turn forward. */
+static void test_idle_turns_both_ways_tell(void)
+{
+    measure_at(8.0, 20.0, -DRAG_Nm);
+    measure_at(0.0, 20.0, -DRAG_Nm);
+    measure_at(0.0, -20.0, DRAG_Nm);
+    TEST_ASSERT_EQUAL(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_NULL(diagnosis.standing_taken);
+    TEST_ASSERT_EQUAL(HCI_FINDING_ADDED, found("friction")->verdict);
+}
+
+/* A zero of the sensor that is another one in each recording. */
+static void test_the_ripple_stays_beside_means_that_nothing_explains(void)
+{
+    static const double ZERO_Nm[] = {0.12, -0.1, 0.05, -0.16};
+    measure_at(8.0, 20.0, ZERO_Nm[0]);
+    measure_at(4.0, 20.0, ZERO_Nm[1]);
+    measure_at(-8.0, 20.0, ZERO_Nm[2]);
+    measure_at(0.0, 20.0, ZERO_Nm[3]);
+    TEST_ASSERT_EQUAL(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_EQUAL(HCI_FINDING_ADDED, found("cogging")->verdict);
+    TEST_ASSERT_EQUAL(HCI_FINDING_ADDED, found("back_emf")->verdict);
+    TEST_ASSERT_TRUE(diagnosis.means_open && diagnosis.means_alone);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_friction_or_the_zero_of_the_sensor);
+    RUN_TEST(test_idle_turns_both_ways_tell);
+    RUN_TEST(test_the_ripple_stays_beside_means_that_nothing_explains);
+    return UNITY_END();
+}
