@@ -49,7 +49,7 @@ static const cli_option OPTIONS[] = {
                     .help = "of the largest torque; what the model need not be better than [0.05]",
                     .low = 1e-6, .high = 50.0},
     [WORK] = {"work", 0, CLI_NUMBER, "TIMES",
-              .help = "how much the search may do: times the usual, which takes some 5 s [1]", .low = 0.01,
+              .help = "how much the search may do: times the usual, which takes some 5 s [1; 4 with --again]", .low = 0.01,
               .high = 1e4},
     [REPORT] = {"report", 0, CLI_FLAG, NULL,
                 .help = "report.html is written in any case; taken for the sake of scripts"},
@@ -57,7 +57,8 @@ static const cli_option OPTIONS[] = {
     CLI_READING_OPTIONS,
     CLI_COMMON_OPTIONS};
 
-#define LIKELY 0.95 /* slip, to be named in a diagnosis */
+#define LIKELY     0.95 /* slip, to be named in a diagnosis */
+#define AGAIN_WORK 4.0  /* as tune takes: less would withdraw what it found */
 
 enum { PATH_SIZE = 4096 };
 
@@ -174,6 +175,37 @@ static hci_status check_offset(const cli_arguments *a, const hci_runs *last, con
         a->value[RUNS], last_deg, last_deg);
 }
 
+/* How all recordings of the last diagnosis were read; NULL: none was said, or not one for all. */
+static const char *common_columns(const hci_runs *last)
+{
+    const char *first = last->count > 0 && last->origin ? last->origin[0].columns : "";
+    for (size_t k = 1; k < last->count; ++k)
+        if (strcmp(last->origin[k].columns, first) != 0) return NULL;
+    return *first ? first : NULL;
+}
+
+/* New recordings are read as those of last time, unless it is said how, or they have not those columns. */
+static hci_status read_more(const cli_arguments *a, const inputs *in, hci_runs *more, hci_note *note)
+{
+    const hci_column_names *given = in->reading.run.columns;
+    const char *as_last = given && given->count > 0 ? NULL : common_columns(&in->runs);
+    hci_runs_options reading = {in->reading.run, in->options.progress, NULL};
+    hci_column_names columns = {0};
+    hci_note why = {{0}};
+    hci_status status = HCI_ERROR_INPUT;
+    if (as_last && !hci_column_names_add_text(&columns, as_last, "the last diagnosis", &why)) {
+        reading.run.columns = &columns;
+        status = hci_runs_read(a->value[RUNS], &reading, more, &why);
+        for (size_t k = 0; !status && k < more->count; ++k)
+            hci_note_add(&more->run[k].remark, "read as the recordings of last time: %.200s", as_last);
+    }
+    hci_column_names_release(&columns);
+    reading.run.columns = in->reading.run.columns;
+    if (status == HCI_ERROR_INPUT) return hci_runs_read(a->value[RUNS], &reading, more, note);
+    if (status) *note = why;
+    return status;
+}
+
 /* The recordings of the last diagnosis, if there was one, and the new ones behind them. */
 static hci_status read_runs(const cli_arguments *a, inputs *in, hci_note *note)
 {
@@ -185,7 +217,7 @@ static hci_status read_runs(const cli_arguments *a, inputs *in, hci_note *note)
         return hci_note_set(note, HCI_ERROR_ARGUMENT, "--again: the path is too long");
     hci_status status = read_last(list, in, note);
     in->recordings_before = in->runs.count;
-    if (!status) status = hci_runs_read(a->value[RUNS], &reading, &more, note);
+    if (!status) status = read_more(a, in, &more, note);
     if (!status) status = check_offset(a, &in->runs, &more, note);
     if (!status) status = hci_runs_join(&in->runs, &more, note);
     hci_runs_release(&more);
@@ -202,7 +234,7 @@ static hci_status read_inputs(const cli_arguments *a, inputs *in, hci_note *note
     status = cli_reading_take(a, a->given[STRICT], a->value[ANGLE_OFFSET], &in->reading, note);
     if (!status) status = find_machine(a, in, note);
     in->options.resolution = cli_number_or(a, RESOLUTION, 0.0) / 100.0;
-    in->options.work = cli_number_or(a, WORK, 0.0);
+    in->options.work = cli_number_or(a, WORK, a->value[AGAIN] ? AGAIN_WORK : 0.0);
     in->options.progress = cli_progress;
     const hci_order_base base = (hci_order_base)a->choice[ORDER_BASE];
     if (!status) status = hci_machine_read_orders(in->folder, base, &in->machine, note);

@@ -138,4 +138,20 @@ run 0 diagnose servo --runs runs.csv --target smooth.csv -q -o within
 run 0 diagnose --again within --runs list_played.csv -q -o again_played
 finds solution '"within/solution"' && finds currents '"as_solved"' && finds promise '"kept"'
 
+# ---- new recordings are read as all of last time were, unless they have not those columns
+
+cd .. || exit 1
+for f in idle light half played; do sed '1s/torque_Nm/mess/' "runs/$f.csv" >"runs/${f}_mess.csv"; done
+printf 'file,role\nruns/idle_mess.csv,fit\nruns/light_mess.csv,fit\nruns/half_mess.csv,fit\n' >mess.csv
+printf 'file,role\nruns/played_mess.csv,holdout\n' >list_mess.csv
+run 0 diagnose servo --runs mess.csv --column torque_Nm=mess -q -o out/mess
+name=mess
+run 0 diagnose --again out/mess --runs list_mess.csv -o again_mess
+tr -s ' \n' ' ' <"$work/stdout" >words
+tells 'On 1 new recording the machine of last time was off by 0\.00'
+check "how it was read" grep -q 'read as the recordings of last time: torque_Nm=mess' "$work/stderr"
+run 0 diagnose --again out/mess --runs list_played.csv -o again_played_mess
+tr -s ' \n' ' ' <"$work/stdout" >words
+tells 'On 1 new recording the machine of last time was off by 0\.00'
+
 finish

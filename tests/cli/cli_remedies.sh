@@ -60,6 +60,8 @@ log time_s,theta_m_rad,speed_rad_per_s,iq_A 6.283185307 360 1 >deg_per_s.csv
 tuned 1 deg_per_s.csv; tells "--column 'speed_deg_per_s=speed_rad_per_s'"; tells_not 'a gear of'; typed deg_per_s.csv
 log time_s,theta_m_rad,speed_rad_per_s,iq_A 6.283185307 6.283185307 1000 >milli.csv
 tuned 0 milli.csv --column iq_mA=iq_A; tells 'phase currents up to 0.0[0-9]* A' '`iq_A` is read in mA, as `iq_mA` says'
+log time_s,theta_m_rad,speed_rad_per_s,x 6.283185307 6.283185307 1 >minus.csv
+tuned 1 minus.csv --column iq_A=-x/2; tells "with the opposite sign: --column 'iq_A=x/2'"; typed minus.csv
 log t,angle,vel,current 1 1 1 >turns.csv
 tuned 1 turns.csv --column theta_m=angle --column iq=current --column speed=vel
 tells "it is 2 whole turns and .angle. is in turns and not in rad: --column 'theta_m_turn=angle' --column 'speed_turn_per_s=vel'"

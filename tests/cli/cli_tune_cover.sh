@@ -68,6 +68,8 @@ check "a table in few" [ ! -e few/table ]
 places enough.csv 1200
 run 0 tune enough.csv --pole-pairs 11 --torque-constant 0.8 --slots 24 --rated-current 6 -o enough
 says 'order 24: 0\.01 '
+run 1 tune enough.csv --pole-pairs 12 --torque-constant 0.8 --slots 24 --rated-current 6 -o twelve
+says '24 slots and 24 poles are of no winding of three equal phases'
 
 # ---- exactly once round each way: the rows of the start and of the turning point are not used, and leave a gap
 

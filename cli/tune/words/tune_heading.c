@@ -199,7 +199,8 @@ static const char *why_blocked(const cli_tuning *t)
     if (cli_tune_has_gap(t))
         return "A small part of the turn has no samples, and the order of slots and poles is not told across "
                "it";
-    if (t->has_alias) return "Cogging torque of a higher order would look like one of a low order";
+    if (t->has_alias && !t->has_slip)
+        return "Cogging torque of a higher order would look like one of a low order";
     if (t->has_standstill)
         return "The angle of the rotor does not change in the logs: the shaft stands, and one angle tells "
                "neither cogging torque nor back-EMF";
@@ -213,10 +214,13 @@ static const char *why_blocked(const cli_tuning *t)
 static const char *why_untold(const cli_tuning *t)
 {
     if (t->has_unsteady && has_rough_clock(t))
-        return "The shaft turns in jerks, or the time stamps come in jerks (rows are missing, or the stamps "
-               "are "
-               "rounded), and its current does not tell its cogging torque then";
-    if (t->has_unsteady) return "The current of a shaft that turns in jerks does not tell its cogging torque";
+        return "The shaft turns in jerks, or the time stamps come in jerks (rows are missing, the stamps are "
+               "rounded, or several logs are one file), and its current does not tell its cogging torque "
+               "then";
+    if (t->has_unsteady)
+        return "The current of a shaft that turns in jerks does not tell its cogging torque (where it turns "
+               "evenly the counts of a turn, the number of pole pairs, or several logs in one file make it "
+               "look so)";
     if (cli_tune_all_torque_clipped(t))
         return "The torque in the logs is clipped at the end of its sensor, and what lies beyond is missing";
     if (cli_tune_is_typed(t))

@@ -200,11 +200,28 @@ static void append_of_sign(cli_tuning *t)
         cli_tune_caveat(t, "The sign of i_q is not told, and with the other one the ripple doubles");
 }
 
+static int divisor(int a, int b)
+{
+    return b == 0 ? a : divisor(b, a % b);
+}
+
+/* Whether three equal phases can be wound on so many slots; where they are not said, they can. */
+static bool is_wound(const cli_tuning *t)
+{
+    const int slots = (int)t->declared.slots;
+    return !(t->declared.slots >= 3.0) || slots % (3 * divisor(slots, t->declared.model.pole_pairs)) == 0;
+}
+
 /* Orders that slots and poles do not make, and those that they do. */
 static void append_of_slots(cli_tuning *t)
 {
     char order[CLI_TUNE_ORDER];
-    if (t->stranger_order > 0.0)
+    if (!is_wound(t))
+        cli_tune_caveat(t,
+                        "%.0f slots and %d poles are of no winding of three equal phases: one of the two "
+                        "numbers is another one",
+                        t->declared.slots, 2 * t->declared.model.pole_pairs);
+    else if (t->stranger_order > 0.0)
         cli_tune_caveat(
             t,
             "The largest order found, %s, is none that %.0f slots and %d poles make: %.5g and its "

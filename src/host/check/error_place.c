@@ -147,6 +147,12 @@ static bool is_told(const check_data *data, const check_interpretation *as)
     return zero.is_known && (zero.is_of_drive || hci_check_zero_is_told(data, as, zero.zero_rad));
 }
 
+/* Radians were read as degrees only where the column says degrees, and others where it says radians. */
+static bool is_of_unit(const check_error *error, const check_place *place)
+{
+    return (error->times > 10.0) == (fabs(place->factor * 180.0 / HCI_PI - 1.0) < 1e-6);
+}
+
 /* Poles are an even number; a motor with one pole pair has no electrical radians of its own; degrees show by
  * phases above 2π, and read as degrees all others would be near 0. */
 bool hci_check_error_applies(const check_error *error, const check_data *data)
@@ -165,6 +171,7 @@ bool hci_check_error_applies(const check_error *error, const check_data *data)
         return data->cogging.count > 0 && (is_beyond(&data->emf) || is_beyond(&data->cogging));
     if (error->where == CHECK_AT_EMF_PHASE) return is_beyond(&data->emf);
     if (error->where == CHECK_AT_COGGING_PHASE) return is_beyond(&data->cogging);
+    if (error->aspect == CHECK_OF_THETA_UNIT) return is_of_unit(error, place);
     if (error->aspect == CHECK_OF_THETA || error->aspect == CHECK_OF_EMF_ORDER ||
         error->aspect == CHECK_OF_COGGING_ORDER || error->aspect == CHECK_OF_SLOPE)
         return p > 1.0;
@@ -401,6 +408,44 @@ static void say_other_motion(const check_data *data, hci_check_finding *finding)
     snprintf(finding->words + used, sizeof finding->words - used, ", or angle and speed are both backward");
 }
 
+/* What was said of a column when it was read; NULL: nothing. */
+static const hci_column_name *given_of(const check_data *data, const check_place *place)
+{
+    const size_t length = strlen(place->column);
+    for (size_t k = 0; data->columns && k < data->columns->count; ++k) {
+        const hci_column_name *x = &data->columns->item[k];
+        const char *name = x->column + (*x->column == '-');
+        if (strncmp(name, place->column, length) == 0 && (name[length] == '\0' || name[length] == '/'))
+            return x;
+    }
+    return NULL;
+}
+
+/* The column with the sign and the divisor that were given. */
+static const char *given_as(const check_data *data, const check_place *place)
+{
+    const hci_column_name *given = given_of(data, place);
+    return given ? given->column : place->column;
+}
+
+static const char *given_name(const check_data *data, const check_place *place, const char *usual)
+{
+    const hci_column_name *given = given_of(data, place);
+    return given ? given->name : usual;
+}
+
+/* Of the opposite: what stands before the column, and the column without it. */
+static const char *minus(const check_data *data, const check_place *place)
+{
+    return *given_as(data, place) == '-' ? "" : "-";
+}
+
+static const char *unsigned_of(const check_data *data, const check_place *place)
+{
+    const char *text = given_as(data, place);
+    return text + (*text == '-');
+}
+
 /* How to say it of a column whose name says nothing or something else. */
 static void say_column(const check_error *error, const check_data *data, const check_place *place,
                        hci_check_finding *finding)
@@ -410,27 +455,30 @@ static void say_column(const check_error *error, const check_data *data, const c
     const check_place *of_rotor = place_of(data, CHECK_AT_THETA_M);
     if (error->aspect == CHECK_OF_CURRENT_UNIT)
         snprintf(text, size, "in mA: --column '%s_mA=%.60s', and so of each current", current_of(data, place),
-                 place->column);
+                 given_as(data, place));
     if (error->aspect == CHECK_OF_THETA_UNIT)
         snprintf(text, size, "in %s: --column '%s_%s=%.60s'", unit_of_angle(error).words,
                  of_rotor && strcmp(place->column, of_rotor->column) == 0 ? "theta_m" : "theta_e",
-                 unit_of_angle(error).ending, place->column);
+                 unit_of_angle(error).ending, given_as(data, place));
     if (error->aspect == CHECK_OF_THETA && !is_geared(error)) /* in the unit of its header */
         snprintf(text, size, "%.7s: --column '%.7s=%.60s'", error->should_be, error->should_be,
-                 place->column);
+                 given_as(data, place));
     if (error->aspect == CHECK_OF_TORQUE_UNIT || error->aspect == CHECK_OF_TIME ||
         (error->aspect == CHECK_OF_SPEED && error->where == CHECK_AT_SPEED))
-        snprintf(text, size, "%s: --column '%s=%.60s'", error->should_be, error->should_be, place->column);
+        snprintf(text, size, "%s: --column '%s=%.60s'", error->should_be, error->should_be,
+                 given_as(data, place));
     if (error->where == CHECK_AT_SPEED_M)
-        snprintf(text, size, "%s: --column 'speed_e=%.60s'", error->should_be, place->column);
+        snprintf(text, size, "%s: --column 'speed_e=%.60s'", error->should_be, given_as(data, place));
     if (error->aspect == CHECK_OF_CURRENT_SIGN)
-        snprintf(text, size, "with the opposite sign: --column '%s=-%.60s', and so of each current",
-                 current_of(data, place), place->column);
+        snprintf(text, size, "with the opposite sign: --column '%s=%s%.60s', and so of each current",
+                 given_name(data, place, current_of(data, place)), minus(data, place),
+                 unsigned_of(data, place));
     if (strcmp(error->name, "current_rms") == 0 || strcmp(error->name, "current_dq_rms") == 0)
         snprintf(text, size, "%.40s: --column '%s_Arms=%.40s', and so of each", error->should_be,
-                 current_of(data, place), place->column);
+                 current_of(data, place), given_as(data, place));
     if (error->where == CHECK_AT_TORQUE && error->times < 0.0)
-        snprintf(text, size, "with the opposite sign: --column 'torque=-%.60s'", place->column);
+        snprintf(text, size, "with the opposite sign: --column '%s=%s%.60s'",
+                 given_name(data, place, "torque"), minus(data, place), unsigned_of(data, place));
 }
 
 void hci_check_error_locate(const check_error *error, const check_data *data, const check_interpretation *as,

@@ -249,6 +249,26 @@ bool hci_csv_is_counted(const hci_csv *csv, size_t column, double *of_turn)
     return *of_turn > 0.0 || most - least > FULL_TURN;
 }
 
+/* Of all counts: a step in which they begin again, and how near a few turns come to their ends. */
+#define MOST_OF  0.75
+#define NEAR_END 0.02
+
+double hci_csv_counts_that_begin_again(const hci_csv *csv, size_t column)
+{
+    double least = DBL_MAX, most = 0.0, step = 0.0, before = NAN, value;
+    for (size_t k = hci_csv_first_record(csv); k < csv->records; ++k) {
+        if (!hci_number_parse(hci_csv_cell(csv, k, column), &value)) continue;
+        if (value != floor(value)) return 0.0;
+        least = fmin(least, value);
+        most = fmax(most, value);
+        step = fmax(step, fabs(value - before));
+        before = value;
+    }
+    const double counts = exp2(ceil(log2(most + 1.0)));
+    const bool spans = least >= 0.0 && least < NEAR_END * counts && most > (1.0 - NEAR_END) * counts;
+    return spans && step > MOST_OF * counts && counts >= LEAST_COUNTS ? counts : 0.0;
+}
+
 void hci_csv_unused(const hci_csv *csv, const bool *used, hci_note *remark)
 {
     char list[300] = "";

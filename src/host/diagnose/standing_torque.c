@@ -152,19 +152,25 @@ static hci_verdict *verdict_of(hci_attribution *a, int kind)
     return &a->verdict[k];
 }
 
-/* Of several the one with which the torque per ampere differs most is told. */
-static hci_status tell(exchange *x, hci_note *note)
+/* Of the torque per ampere, that matters: in one direction the zero and the friction are one for it. */
+#define MATTERS 0.01
+
+static hci_status share_of(const exchange *x, double *share, hci_note *note)
 {
     double before, after;
     hci_status status = constant_of(x->regression, &x->a->model.candidates, &before, note);
     if (!status) status = constant_of(x->regression, &x->other.candidates, &after, note);
-    if (status) return status;
-    const double share = fabs(before) > 0.0 ? after / before - 1.0 : 0.0;
-    if (x->a->standing_taken && fabs(share) <= fabs(x->a->standing_share)) return HCI_OK;
+    *share = !status && fabs(before) > 0.0 ? after / before - 1.0 : 0.0;
+    return status;
+}
+
+/* Of several the one with which the torque per ampere differs most is told. */
+static void tell(exchange *x, double share)
+{
+    if (x->a->standing_taken && fabs(share) <= fabs(x->a->standing_share)) return;
     x->a->standing_taken = NAME[x->out];
     x->a->standing_instead = NAME[x->in];
     x->a->standing_share = share;
-    return HCI_OK;
 }
 
 /* What else a type has in the model stays certain. */
@@ -179,10 +185,12 @@ static void mark(exchange *x)
 
 static hci_status try_one(exchange *x, hci_note *note)
 {
+    double share = 0.0;
     hci_status status = fit_other(x, note);
-    if (!status && is_as_good(x)) {
-        status = tell(x, note);
-        if (!status) mark(x);
+    if (!status && is_as_good(x)) status = share_of(x, &share, note);
+    if (!status && fabs(share) > MATTERS) {
+        tell(x, share);
+        mark(x);
     }
     hci_fitted_model_release(&x->other);
     return status;

@@ -598,12 +598,30 @@ static bool is_named_otherwise(const hci_column_names *names, const hci_column_n
     return false;
 }
 
+/* Counts that begin again before there are as many as a turn is said to have. */
+static hci_status check_counts(const hci_csv *csv, const hci_column_name *item, size_t column, double said,
+                               hci_note *note)
+{
+    char path[HCI_QUOTE_PATH_SIZE];
+    const char *header = hci_csv_name(csv, column);
+    const double of_turn = hci_csv_counts_that_begin_again(csv, column);
+    if (!(of_turn > 0.0) || !(said > of_turn)) return HCI_OK;
+    return hci_note_set(
+        note, HCI_ERROR_INPUT,
+        "%.300s: found %.10g counts of a turn, but %.100s in %s goes from 0 to %.0f and begins "
+        "again, expected no more than it has; write %s=%.100s/%.0f",
+        item->from, said, header, hci_quote_path(hci_csv_path(csv), path), of_turn - 1.0, item->name, header,
+        of_turn);
+}
+
 static hci_status give_divided(hci_csv *csv, const hci_column_name *item, size_t column, hci_note *note)
 {
     size_t length;
     const double divisor = divisor_of(item, &length);
-    if (is_angle(item->name) && divisor >= 1.0)
-        return hci_csv_give_counts(csv, item->name, column, divisor, note);
+    if (is_angle(item->name) && divisor >= 1.0) {
+        const hci_status status = check_counts(csv, item, column, divisor, note);
+        return status ? status : hci_csv_give_counts(csv, item->name, column, divisor, note);
+    }
     if (is_angle(item->name) ||
         (hci_csv_counts(hci_csv_name(csv, column)) && quantity_of(item->name) == HCI_RUN_TORQUE))
         return given_counts_error(item, note);

@@ -388,6 +388,29 @@ static void test_counts_by_their_numbers(void)
     text_has("say --column \"theta_m=rotor X [rad]\"", note.text);
 }
 
+/* Counts that end before a turn is over, and begin again; not of a counter that goes through several turns,
+ * nor of a shaft that goes to and fro. */
+static void test_counts_of_another_turn(void)
+{
+    static const char *const ROWS[] = {"10,1\n1500,2\n3000,3\n4080,4\n900,5\n",
+                                       "10,1\n1500,2\n3000,3\n4080,4\n3000,5\n"};
+    for (int k = 0; k < 2; ++k) {
+        char text[120];
+        snprintf(text, sizeof text, "encoder,torque_Nm\n%s", ROWS[k]);
+        files_write(path, text);
+        add("theta_m=encoder/16384");
+        TEST_ASSERT_EQUAL_MESSAGE(k == 0 ? HCI_ERROR_INPUT : HCI_OK, read_run(), note.text);
+        if (k == 0)
+            text_has("goes from 0 to 4095 and begins again, expected no more than it has; write "
+                     "theta_m=encoder/4096",
+                     note.text);
+        hci_column_names_release(&names);
+        add("theta_m=encoder/2048");
+        TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_run(), note.text);
+        hci_column_names_release(&names);
+    }
+}
+
 /* What check says of a probe on another range: the column over a number. */
 static void test_a_column_over_a_number(void)
 {
@@ -624,6 +647,7 @@ int main(void)
     RUN_TEST(test_a_lost_time_is_said_first);
     RUN_TEST(test_units_that_are_said);
     RUN_TEST(test_counts_by_their_numbers);
+    RUN_TEST(test_counts_of_another_turn);
     RUN_TEST(test_a_column_over_a_number);
     RUN_TEST(test_a_quotient_of_another_quantity);
     RUN_TEST(test_numbers_of_16_bits);

@@ -81,6 +81,9 @@ bool hci_csv_is_sixteen_bits(const char *name);
 /* Is it by its numbers, or by those 16 bits: whole ones that go over more than 360, or from 0 to the last
  * before a power of two? of_turn: out, that power; 0: not told. O(rows). */
 bool hci_csv_is_counted(const hci_csv *csv, size_t column, double *of_turn);
+/* The counts of a turn, a power of two, where whole numbers go from near 0 to near it and begin again; 0:
+ * they do not. O(rows). */
+double hci_csv_counts_that_begin_again(const hci_csv *csv, size_t column);
 
 /* What a column `order` counts periods of. */
 typedef enum { HCI_ORDER_ELECTRICAL, HCI_ORDER_MECHANICAL } hci_order_base;

@@ -24,6 +24,7 @@ typedef struct {
     char column[CHECK_TEXT]; /* as the header spells it */
     char text[CHECK_TEXT];   /* the cell */
     size_t unit_line;        /* of the row of units that names the unit of the column; 0: none does */
+    double factor;           /* of a column: from its unit to that of the quantity; else 0 */
     bool names_unit;         /* of a column: its header, the row of units, or who named it, says its unit */
 } check_place;
 
@@ -170,6 +171,7 @@ typedef struct {
     size_t scales;
     check_run *run;
     size_t runs;
+    const hci_column_names *columns; /* what was said of columns when they were read; the caller's, or NULL */
     bool torque_zero_is_told;  /* by runs without current in both directions; the torques are without it */
     double no_current_A;       /* runs with less are without current */
     int pole_pairs_of_ripple;  /* that the orders of the ripple without load fit best; 0: no such recording */

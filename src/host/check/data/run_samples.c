@@ -22,6 +22,7 @@ static void place(const check_samples *s, hci_run_column which, check_run *run, 
     snprintf(out->column, sizeof out->column, "%s", header);
     snprintf(out->text, sizeof out->text, "%s", header);
     out->unit_line = hci_run_column_unit_line(&s->columns, which);
+    out->factor = hci_run_column_factor(&s->columns, which);
     out->names_unit = hci_run_column_names_unit(&s->columns, which);
 }
 

@@ -294,6 +294,7 @@ hci_status hci_check_runs_read(const char *const *path, size_t count, const hci_
                                check_data *data, hci_note *remark, hci_note *note)
 {
     hci_status status = HCI_OK;
+    data->columns = reading->columns;
     scales_make(data);
     data->run = hci_memory_new(CHECK_MOST_PARTS * count, sizeof *data->run);
     if (!data->run) return hci_note_memory(note, NULL, "%zu runs", count);
