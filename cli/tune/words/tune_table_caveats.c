@@ -203,9 +203,22 @@ static void append_of_drive_zero(cli_tuning *t)
             fabs(t->drive_zero_deg), cli_tune_offset_to_give(t, t->drive_zero_deg), t->drive_zero_reach_deg);
 }
 
+/* What the drive has to add to an angle that it counts as the logs do. */
+static void append_of_offset(cli_tuning *t)
+{
+    const char *offset = cli_tune_offset(t);
+    if (t->is_solved && offset && !t->took_drive_zero)
+        cli_tune_caveat(
+            t,
+            "The table is over the angle of the logs with --angle-offset %s: where the drive counts "
+            "its angle as they do, add %s electrical degrees to it",
+            offset, offset);
+}
+
 static void append_of_zero(cli_tuning *t)
 {
     append_of_drive_zero(t);
+    append_of_offset(t);
     if (fabs(t->open_turn_deg) > 0.0 && t->is_solved)
         cli_tune_caveat(
             t,
