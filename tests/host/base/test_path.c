@@ -62,6 +62,18 @@ static void test_not_there(void)
     TEST_ASSERT_EQUAL_INT(HCI_ERROR_MEMORY, hci_path_relative(files_path("ab.csv"), "/", &relative, &note));
 }
 
+/* The nearest name is one of the folder that was named. */
+static void test_the_nearest_name(void)
+{
+    char *relative, expected[4200];
+    hci_note note = {{0}};
+    files_write(files_path("a/current.csv"), "x\n");
+    TEST_ASSERT_EQUAL_INT(HCI_ERROR_INPUT,
+                          hci_path_relative(files_path("a/curent.csv"), "/", &relative, &note));
+    snprintf(expected, sizeof expected, "did you mean `%s`?", files_path("a/current.csv"));
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(note.text, expected), note.text);
+}
+
 static void test_same(void)
 {
     char other[4096];
@@ -77,6 +89,7 @@ int main(void)
     RUN_TEST(test_relative);
     RUN_TEST(test_from_the_root);
     RUN_TEST(test_not_there);
+    RUN_TEST(test_the_nearest_name);
     RUN_TEST(test_same);
     return UNITY_END();
 }

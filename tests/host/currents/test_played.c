@@ -38,12 +38,12 @@ void tearDown(void)
 {
 }
 
-/* Six turns; a ripple of 2·amplitude at the sixth electrical order. */
+/* Six turns in as many samples as the run has; a ripple of 2·amplitude at the sixth electrical order. */
 static void record(double ahead_rad, double gain, size_t waves, double amplitude_Nm, double noise_Nm)
 {
     uint64_t seed = 5;
-    for (size_t k = 0; k < COUNT; ++k) {
-        theta[k] = 12.0 * REF_PI * (double)k / COUNT;
+    for (size_t k = 0; k < run.count; ++k) {
+        theta[k] = 12.0 * REF_PI * (double)k / (double)run.count;
         hci_waves_at(wave, waves, PAIRS * theta[k] + ahead_rad, current + 3 * k);
         for (int s = 0; s < 3; ++s)
             current[3 * k + (size_t)s] = gain * current[3 * k + (size_t)s] + 0.02 * ref_normal(&seed);
@@ -157,6 +157,20 @@ static void test_turns(void)
     TEST_ASSERT_EQUAL_INT(HCI_PROMISE_NOT_JUDGED, judge().promise);
 }
 
+/* Of few samples in a turn, up to eight tenths of half of them, the twelfth electrical order has to be told.
+ */
+static void test_the_least_order(void)
+{
+    run.count = 6 * 122;
+    record(0.0, 1.0, 3, 0.01, 0.002);
+    const hci_played p = judge();
+    TEST_ASSERT_EQUAL_DOUBLE(12.0, p.ripple_order);
+    TEST_ASSERT_EQUAL_INT(HCI_PROMISE_KEPT, p.promise);
+    run.count = 6 * 118;
+    record(0.0, 1.0, 3, 0.01, 0.002);
+    TEST_ASSERT_EQUAL_INT(HCI_PROMISE_NOT_JUDGED, judge().promise);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -165,5 +179,6 @@ int main(void)
     RUN_TEST(test_other_currents);
     RUN_TEST(test_not_known);
     RUN_TEST(test_turns);
+    RUN_TEST(test_the_least_order);
     return UNITY_END();
 }

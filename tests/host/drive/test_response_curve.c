@@ -71,6 +71,22 @@ static void test_four_exact_points_are_enough(void)
     }
 }
 
+/* A delay of less than half a step of those that are tried, and one between the last two. */
+static void test_delays_at_the_ends(void)
+{
+    static const double DELAY_s[] = {0.0, 0.02e-4, 5.97e-4};
+    static hci_curve_point point[MOST];
+    for (int d = 0; d < 3; ++d) {
+        for (int k = 0; k < 16; ++k) {
+            const double nu = 125.66370614 * pow(125.0, k / 15.0);
+            point[k] = (hci_curve_point){nu, through(nu, 1.0, 200.0, DELAY_s[d], 0.0), 1.0};
+        }
+        const hci_response_curve c = hci_response_curve_of(point, 16, T_s);
+        TEST_ASSERT_TRUE(c.kind != HCI_CURVE_STRAIGHT);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6 * T_s, DELAY_s[d], c.loop.delay_s);
+    }
+}
+
 /* What is said of the error is what it is, to a factor of three. */
 static void test_noise_is_averaged_and_told(void)
 {
@@ -167,6 +183,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_four_exact_points_are_enough);
+    RUN_TEST(test_delays_at_the_ends);
     RUN_TEST(test_noise_is_averaged_and_told);
     RUN_TEST(test_another_kind_of_loop_is_told_by_its_ratio);
     RUN_TEST(test_too_few_points_below_half_the_sampling_are_joined_straight);

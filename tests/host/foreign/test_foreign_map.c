@@ -470,6 +470,18 @@ static void test_what_drives_make_of_a_map(void)
     }
 }
 
+/* In single precision an angle may be rounded to a whole turn, which is the first row. */
+static void test_the_end_of_a_turn(void)
+{
+    double first[2], last[2];
+    fill(&written, HCI_FOREIGN_SIMPLEFOC, 7);
+    written.type->at(&written, 0.0, 0.4, first);
+    written.type->at(&written, 1.0 - 1e-12, 0.4, last);
+    for (int c = 0; c < 2; ++c)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, first[c], last[c]);
+    hci_foreign_map_release(&written);
+}
+
 /* A chord of a smooth curve is as far above it as below. */
 static void test_balanced_nodes_halve_the_error(void)
 {
@@ -566,6 +578,7 @@ int main(void)
     RUN_TEST(test_waves_are_the_same_sine);
     RUN_TEST(test_angle_there_and_back);
     RUN_TEST(test_what_drives_make_of_a_map);
+    RUN_TEST(test_the_end_of_a_turn);
     RUN_TEST(test_balanced_nodes_halve_the_error);
     RUN_TEST(test_out_of_memory_leaves_nothing);
     RUN_TEST(test_out_of_memory_when_reading);

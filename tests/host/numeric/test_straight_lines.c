@@ -1,10 +1,8 @@
 /* Values along straight lines between nodes are found and taken back; anything else is not. */
-#include "host/numeric/straight_lines.h"
+#include "host/numeric/straight_lines.c"
 
-#include <math.h>
 #include <stdlib.h>
 
-#include "host/base/memory.h"
 #include "support/draws.h"
 #include "unity.h"
 
@@ -129,6 +127,23 @@ static void test_what_repeats_is_no_lines(void)
     }
 }
 
+/* Nodes of which every fifth is one of the lines, as when the rows in the middle lie well between others:
+ * those alone, wherever the first of them is. */
+static void test_every_nth_of_the_nodes(void)
+{
+    for (int late = 0; late < 5; ++late) {
+        rows x = {0};
+        const rows all = {.row = row, .value = value, .n = ROWS};
+        make_lines(-0.3, 12.5, 0.0);
+        nodes = (hci_line_nodes){-0.3 - 2.5 * late, 2.5, NODES};
+        TEST_ASSERT_TRUE(rows_new(NODES, &x));
+        widen(&all, &x, &nodes);
+        hci_memory_free(x.diagonal);
+        TEST_ASSERT_EQUAL_DOUBLE(12.5, nodes.step);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, remainder(nodes.first + 0.3, 12.5));
+    }
+}
+
 static void test_nodes_at_every_row_are_none(void)
 {
     make_lines(-0.3, 1.2, 0.0);
@@ -158,6 +173,7 @@ int main(void)
     RUN_TEST(test_rows_that_were_left_out);
     RUN_TEST(test_nothing_else_is_lines);
     RUN_TEST(test_what_repeats_is_no_lines);
+    RUN_TEST(test_every_nth_of_the_nodes);
     RUN_TEST(test_nodes_at_every_row_are_none);
     RUN_TEST(test_memory_that_is_short);
     return UNITY_END();

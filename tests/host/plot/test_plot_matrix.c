@@ -218,6 +218,19 @@ static void put_turn(hci_output *out)
     hci_plot_turn_dq(out, &box, &drawn);
 }
 
+/* Points of the lines of i_d and i_q. */
+static size_t points_of(const char *style)
+{
+    char begin[64];
+    snprintf(begin, sizeof begin, "<polyline class=\"%s\" points=\"", style);
+    const char *at = strstr(picture, begin);
+    TEST_ASSERT_NOT_NULL(at);
+    size_t points = 0;
+    for (at += strlen(begin); *at != '"'; ++at)
+        points += *at == ',';
+    return points;
+}
+
 /* Torque 5 + sin 6θ with a peak in a single sample, current (cos θ, 2): means by the integral over 10
  * degrees. */
 static void test_turn(void)
@@ -242,6 +255,8 @@ static void test_turn(void)
     TEST_ASSERT_TRUE(hci_turn_mean_of(&turn, 1, HCI_TURN_STEPS - 1).torque_range_Nm.high < 6.01);
     draw(put_turn);
     TEST_ASSERT_NULL(strstr(picture, "nan"));
+    TEST_ASSERT_EQUAL_UINT64(HCI_TURN_STEPS, points_of("b"));
+    TEST_ASSERT_EQUAL_UINT64(HCI_TURN_STEPS, points_of("a"));
     hci_turn_means_begin(&turn);
     TEST_ASSERT_EQUAL_UINT64(0, hci_turn_mean_of(&turn, 0, HCI_TURN_STEPS).samples);
     draw(put_turn);

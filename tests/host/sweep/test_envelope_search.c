@@ -83,6 +83,19 @@ static void test_a_sine_within_the_limits(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 5.0, amplitude_within(&b));
 }
 
+/* Where no set is given all may be used. */
+static void test_whether_the_sine_may_be_used(void)
+{
+    static hci_component component[] = {{5.0, -1}, {1.0, 1}, {1.0, -1}, {1.0, 0}};
+    hci_component_set set = {.component = component, .count = 2};
+    const hci_solve_options all = {0}, of_set = {.set = &set};
+    TEST_ASSERT_TRUE(has_sine(&all));
+    TEST_ASSERT_TRUE(has_sine(&of_set));
+    component[1].order = 7.0;
+    set.count = 4;
+    TEST_ASSERT_FALSE(has_sine(&of_set));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -91,5 +104,6 @@ int main(void)
     RUN_TEST(test_on_the_line_of_two_bad_ones);
     RUN_TEST(test_inside_the_bracket);
     RUN_TEST(test_a_sine_within_the_limits);
+    RUN_TEST(test_whether_the_sine_may_be_used);
     return UNITY_END();
 }

@@ -1,8 +1,8 @@
 /* Which of three columns of currents is not as the two others, by how they vary; currents that stand say
  * nothing of it. */
-#include "host/check/data/odd_channel.h"
+#include "host/check/data/run_samples.c"
 
-#include <math.h>
+#include <stdlib.h>
 
 #include "support/draws.h"
 #include "unity.h"
@@ -98,6 +98,33 @@ static void test_a_dead_one(void)
     TEST_ASSERT_EQUAL(1, judge().phase);
 }
 
+/* One that reads nothing is what the two others leave, one that reads otherwise is divided by its gain; with
+ * a neutral conductor each is read as it is. */
+static void test_columns_are_mended(void)
+{
+    static const hci_csv nothing;
+    double *const column[3] = {a, b, c};
+    for (int odd = 0; odd < 3; ++odd)
+        for (int kind = 0; kind < 3; ++kind) {
+            check_data data = {.has_neutral = kind == 2};
+            check_run *run = calloc(1, sizeof *run);
+            check_samples s = {.count = N, .phase = (const double *const *)column};
+            double wanted[N];
+            s.columns.csv = &nothing;
+            turn();
+            for (int k = 0; k < N; ++k) {
+                wanted[k] = column[odd][k];
+                column[odd][k] = kind == 1 ? -2.0 * wanted[k] : 0.2;
+            }
+            for (int phase = 0; phase < 3; ++phase)
+                s.columns.value[HCI_RUN_IA + phase] = column[phase];
+            TEST_ASSERT_EQUAL(HCI_OK, mend_channel(&data, run, &s));
+            for (int k = 0; k < N; ++k)
+                TEST_ASSERT_DOUBLE_WITHIN(1e-6, kind == 2 ? 0.2 : wanted[k], column[odd][k]);
+            free(run);
+        }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -106,5 +133,6 @@ int main(void)
     RUN_TEST(test_what_flows_back_in_two_phases_is_no_twin);
     RUN_TEST(test_twins);
     RUN_TEST(test_a_dead_one);
+    RUN_TEST(test_columns_are_mended);
     return UNITY_END();
 }

@@ -95,10 +95,23 @@ static void test_runs_that_tell_no_mean(void)
     TEST_ASSERT_EQUAL_UINT64(0, hci_residual_by_speed(&source, mean));
 }
 
+/* Slow ones are forward and backward, too. */
+static void test_slow_speeds(void)
+{
+    const double speed[SAMPLES] = {0.01, 0.0, 0.0, -0.01, 0.0, 0.0, 1e-3, 0.0, 0.0, -1e-3, 0.0, 0.0};
+    speeds_set(speed);
+    TEST_ASSERT_EQUAL_UINT64(4, hci_residual_by_speed(&source, mean));
+    expect(0, 0, 0);
+    expect(1, 6, 6);
+    expect(2, 3, 3);
+    expect(3, 9, 9);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_bins_of_a_quarter_of_an_octave);
     RUN_TEST(test_runs_that_tell_no_mean);
+    RUN_TEST(test_slow_speeds);
     return UNITY_END();
 }

@@ -106,6 +106,17 @@ static void test_places(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.0, place_of(&small, 0.05, 0.0, 0.12, 1.0).x[2]);
 }
 
+/* One that stands is neither forward nor backward: as far from both. */
+static void test_ways(void)
+{
+    const hci_playable p = {.most_A = 4.0, .least_rad_per_s = 1.0, .most_rad_per_s = 100.0};
+    static const double SPEED[] = {-0.1, 0.0, 0.1};
+    for (int k = 0; k < 3; ++k) {
+        const hci_operating_point x = {.iq_A = 1.0, .speed_rad_per_s = SPEED[k]};
+        TEST_ASSERT_EQUAL_DOUBLE(k - 1.0, place_at(&p, &x).x[3]);
+    }
+}
+
 static void test_which_runs_tell_an_angle(void)
 {
     for (int bits = 0; bits < 4; ++bits) {
@@ -122,6 +133,7 @@ int main(void)
     RUN_TEST(test_a_law_that_does_not_grow);
     RUN_TEST(test_what_is_believed);
     RUN_TEST(test_places);
+    RUN_TEST(test_ways);
     RUN_TEST(test_which_runs_tell_an_angle);
     return UNITY_END();
 }

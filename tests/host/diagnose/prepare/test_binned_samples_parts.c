@@ -271,6 +271,20 @@ static void test_parts_of_a_long_run(void)
     TEST_ASSERT_EQUAL_UINT64(4096 + 4096 + 8000, samples.count);
 }
 
+/* Of slow noise, in pieces of 4000 samples, as many as runs have room for in 49152 samples, to the nearest
+ * whole number, and one at least. */
+static void test_parts_of_slow_noise(void)
+{
+    static const size_t RUNS[] = {1, 4, 5, 8, 9, 30}, PIECES[] = {5, 3, 2, 2, 1, 1};
+    make(20000);
+    for (size_t k = 0; k < 6; ++k) {
+        const size_t before = samples.segment_count;
+        samples.run_count = RUNS[k];
+        TEST_ASSERT_TRUE(slow_segments(&x));
+        TEST_ASSERT_EQUAL_UINT64(PIECES[k], samples.segment_count - before);
+    }
+}
+
 /* A quarter of an electrical turn back, either way. */
 static void test_the_end_of_a_way(void)
 {
@@ -298,6 +312,7 @@ int main(void)
     RUN_TEST(test_slopes_leave_the_scatter);
     RUN_TEST(test_the_time_of_a_turn);
     RUN_TEST(test_parts_of_a_long_run);
+    RUN_TEST(test_parts_of_slow_noise);
     RUN_TEST(test_the_end_of_a_way);
     return UNITY_END();
 }

@@ -104,6 +104,24 @@ static void test_a_scale_is_held(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-15, 0.75, by_value[0]);
 }
 
+/* Of a path that is no turn, by steps of 1 and 3 in turns: (1 + 9)/(1 + 3), however small they are; of
+ * samples in one place none. */
+static void test_the_usual_step(void)
+{
+    hci_binned_sample sample[5];
+    const hci_binned_samples samples = {.sample = sample, .count = 5};
+    const hci_regression e = {.samples = &samples};
+    const hci_segment s = {.count = 5};
+    memset(sample, 0, sizeof sample);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, usual_step_rad(&e, &s));
+    for (double step_rad = 1e-4; step_rad < 2.0; step_rad *= 10.0) {
+        for (int k = 1; k < 5; ++k)
+            sample[k].reading.theta_m_rad =
+                sample[k - 1].reading.theta_m_rad - step_rad * (k % 2 ? 1.0 : 3.0);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9 * step_rad, 2.5 * step_rad, usual_step_rad(&e, &s));
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -112,5 +130,6 @@ int main(void)
     RUN_TEST(test_samples_that_tell_nothing);
     RUN_TEST(test_what_is_beyond_a_known_load_stays);
     RUN_TEST(test_a_scale_is_held);
+    RUN_TEST(test_the_usual_step);
     return UNITY_END();
 }

@@ -73,11 +73,52 @@ static void test_single_terms_that_predict_nothing(void)
     hci_fitted_model_release(&search.single);
 }
 
+static void value_set(double order, double value)
+{
+    for (size_t k = 0; k < model.candidates.count; ++k)
+        if (model.candidates.candidate[k].term[0].order == order)
+            model.candidates.candidate[k].term[0].value = value;
+}
+
+/* Four loads with i_q alone, at which orders 5 and 7 of the back-EMF make the same torque; another order of
+ * which so much is in the torque. */
+static void record_of_order(double order, double burst_Nm)
+{
+    static const double CURRENT_A[] = {3.0, -6.0, 9.0, -4.0};
+    for (size_t r = 0; r < 4; ++r) {
+        record(600, &(point){60.0 + 10.0 * (double)r, CURRENT_A[r], 0.0, 0.0, 0.0});
+        for (size_t k = 0; k < 600; ++k)
+            run[r].torque_Nm[k] += 0.001 * CURRENT_A[r] * cos(order * P * run[r].theta_m_rad[k]) +
+                                   (k / 60 % 2 ? burst_Nm * ref_normal(&seed) : 0.0);
+    }
+    search_start();
+}
+
+/* One of two orders that cancel stands for both where nothing but noise is left of it, and not where bursts
+ * are.
+ */
+static void test_orders_that_cancel(void)
+{
+    for (int is_left = 0; is_left < 2; ++is_left) {
+        record_of_order(6.0, is_left ? 5.0 * NOISE_NM : 0.0);
+        model_add("back_emf", "sine", NULL, 5.0);
+        model_add("back_emf", "sine", NULL, 7.0);
+        model_fit();
+        value_set(5.0, 0.03);
+        value_set(7.0, 0.029);
+        TEST_ASSERT_EQUAL_INT(HCI_OK, cancelling_ask(&search, &model, &note));
+        TEST_ASSERT_EQUAL_UINT64(is_left ? 2 : 1, hci_candidates_terms_in(&model.candidates));
+        tearDown();
+        setUp();
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_what_is_much);
     RUN_TEST(test_what_means_of_their_own_cost);
     RUN_TEST(test_single_terms_that_predict_nothing);
+    RUN_TEST(test_orders_that_cancel);
     return UNITY_END();
 }

@@ -217,11 +217,27 @@ static void test_motors_over_their_day(void)
     }
 }
 
+/* Beside the mark stands as much of the end of a name as fits in 90 pixels. */
+static void test_a_long_name(void)
+{
+    char shown[64] = "";
+    snprintf(motor[3].name, sizeof motor[3].name, "%s", "of_the_second_batch_0123");
+    motor[3].deviation = 8.0;
+    motor[3].stands_out = true;
+    draw(hci_plot_motors);
+    const char *at = strstr(text, ">…");
+    TEST_ASSERT_NOT_NULL(at);
+    TEST_ASSERT_EQUAL(1, sscanf(at + 1, "%63[^<]", shown));
+    TEST_ASSERT_TRUE(hci_svg_text_width("small", shown) <= 90.0);
+    TEST_ASSERT_TRUE(hci_svg_text_width("small", shown) > 80.0);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_bars_and_marks);
     RUN_TEST(test_bars_at_the_edges);
     RUN_TEST(test_motors_over_their_day);
+    RUN_TEST(test_a_long_name);
     return UNITY_END();
 }
