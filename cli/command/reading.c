@@ -74,6 +74,18 @@ static bool is_same(remark_part a, remark_part b)
     return a.length == b.length && memcmp(a.text, b.text, a.length) == 0;
 }
 
+/* How many recordings say what one says; 0 where one before it does, or nothing is said. */
+static size_t alike_from(const cli_remarks *all, size_t first, part_of_remark which, remark_part one)
+{
+    size_t alike = 0;
+    for (size_t j = 0; j < all->count && one.length > 0; ++j) {
+        if (!is_same(part_of(all->remark(all->context, j), which), one)) continue;
+        if (j < first) return 0;
+        ++alike;
+    }
+    return alike;
+}
+
 void cli_remarks_group(const cli_remarks *all,
                        void (*say)(void *to, size_t first, size_t alike, const char *text), void *to)
 {
@@ -81,15 +93,11 @@ void cli_remarks_group(const cli_remarks *all,
         const part_of_remark which = k < all->count ? READ : NOT_USED;
         const size_t first = k % all->count;
         const remark_part one = part_of(all->remark(all->context, first), which);
-        size_t before = 0, alike = 0;
-        for (size_t j = 0; j < all->count; ++j) {
-            const bool same = is_same(part_of(all->remark(all->context, j), which), one);
-            before += same && j < first;
-            alike += same;
-        }
+        const size_t alike = alike_from(all, first, which, one);
         char text[HCI_NOTE_SIZE];
+        if (alike == 0) continue;
         snprintf(text, sizeof text, "%.*s", (int)one.length, one.text);
-        if (before == 0 && one.length > 0) say(to, first, alike, text);
+        say(to, first, alike, text);
     }
 }
 

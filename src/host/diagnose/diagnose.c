@@ -150,6 +150,7 @@ static hci_alternatives alternatives_of(const hci_attribution *a)
 static hci_status fill(hci_dataset *b, const hci_runs *runs, hci_attribution *a, hci_diagnosis *d,
                        hci_note *note)
 {
+    if (hci_watch_stops(b->regression.watch)) a->ended = HCI_WORK_INTERRUPTED; /* perhaps in a fit */
     d->search = a->ended;
     d->no_load_alone = a->no_load_alone;
     d->slip = a->unknown ? a->slip : NULL;
@@ -526,8 +527,6 @@ static hci_attribute_options how_to(const hci_dataset *b, const task *t)
                                    t->machine->has_neutral,
                                    t->options->progress,
                                    t->options->progress_context,
-                                   t->options->stop,
-                                   t->options->stop_context,
                                    t->options->slip,
                                    t->options->slip_context,
                                    t->suspect ? look_at : NULL,
@@ -578,7 +577,7 @@ static hci_status suspicion_ends(const hci_dataset *b, hci_suspect *suspect, con
 static hci_status diagnose(hci_dataset *b, const task *t, hci_diagnosis *d, hci_note *note)
 {
     const hci_attribute_options how = how_to(b, t);
-    hci_watch watch = {how.stop, how.stop_context, how.progress, how.context, false};
+    hci_watch watch = {t->options->stop, t->options->stop_context, how.progress, how.context, false};
     hci_attribution a;
     b->regression.watch = &watch;
     hci_status status = hci_attribute(&b->regression, &how, &a, note);

@@ -27,6 +27,13 @@ static bool stop(void *context)
     return asked++ >= until && until >= 0;
 }
 
+/* Once the search is over. */
+static bool stop_judging(void *context)
+{
+    (void)context;
+    return diagnosis.resolution_Nm > 0.0;
+}
+
 static void tell(void *context, const char *what, double share)
 {
     TEST_ASSERT_EQUAL_PTR(&asked, context);
@@ -110,6 +117,18 @@ static void test_while_looking_at_what_is_left_open(void)
     }
 }
 
+/* After the search, where something is unknown and so nothing is left open: fits of what stays may have been
+ * cut short. */
+static void test_while_it_is_judged(void)
+{
+    for (size_t r = 0; r < 2; ++r)
+        record(N / 2, &(point){60.0, 0.0, 0.0, 0.0, 0.1});
+    options.stop = stop_judging;
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_EQUAL_INT(HCI_WORK_INTERRUPTED, diagnosis.search);
+    TEST_ASSERT_TRUE(says("interrupted"));
+}
+
 static void test_a_limit_of_work(void)
 {
     double work = 0.0;
@@ -134,6 +153,7 @@ int main(void)
     RUN_TEST(test_until_the_end);
     RUN_TEST(test_at_any_time);
     RUN_TEST(test_while_looking_at_what_is_left_open);
+    RUN_TEST(test_while_it_is_judged);
     RUN_TEST(test_a_limit_of_work);
     return UNITY_END();
 }

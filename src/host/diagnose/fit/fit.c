@@ -177,6 +177,7 @@ static hci_status steps_take(fitting *f, hci_note *note)
     const double *work = f->regression->work;
     const int most = work && *work > HCI_MOST_WORK + HCI_WORK_OF_JUDGING ? STEPS_IN_HASTE : MOST_STEPS;
     for (int k = 0; k < most && !last && !status; ++k) {
+        if (k >= STEPS_IN_HASTE && hci_watch_stops(f->regression->watch)) break;
         if (!step_find(f, f->damping)) {
             f->damping = fmax(WHERE_STUCK, HARDER * f->damping);
             continue;

@@ -20,8 +20,8 @@ typedef struct {
 } hci_fit;
 
 /* Values of the candidates that are in, by Gauss–Newton steps that are shortened where they would not do.
- * Sets their standard errors too. Where the regression has taken all the work that it may, two steps must do.
- * On failure *fit is as it was. HCI_ERROR_MEMORY. O(steps·samples·parameters²). */
+ * Sets their standard errors too. Where the regression has taken all the work that it may, or the user ends
+ * it, two steps must do. On failure *fit is as it was. HCI_ERROR_MEMORY. O(steps·samples·parameters²). */
 hci_status hci_regression_fit(const hci_regression *regression, hci_candidates *candidates, hci_fit *fit,
                               hci_note *note);
 

@@ -1,5 +1,6 @@
 #include "host/diagnose/next/unknown_points.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -244,18 +245,23 @@ static double sign_of(double x)
     return (x > 0.0) - (x < 0.0);
 }
 
-static double nearest_run(const hci_regression *e, const hci_playable *p, const place *at)
+/* How far points are from the nearest run; one that stands, or turns both ways, is in any direction. */
+static void nearest_runs(const hci_regression *e, const hci_playable *p, const place *at, size_t count,
+                         double *nearest)
 {
-    double nearest = INFINITY;
+    for (size_t k = 0; k < count; ++k)
+        nearest[k] = INFINITY;
     for (size_t r = 0; r < e->samples->run_count; ++r) {
         const hci_run_statistics *f = &e->samples->statistics[r];
         if (!hci_segment_next(e->samples, r, NULL)) continue;
         const bool stands = f->both_ways || fabs(f->mean_speed_rad_per_s) < 0.5 * p->least_rad_per_s;
-        const place run = place_of(p, f->mean_id_A, f->no_current ? 0.0 : f->mean_iq_A, hci_run_speed(e, r),
-                                   stands ? at->x[3] : sign_of(f->mean_speed_rad_per_s));
-        nearest = fmin(nearest, distance(at, &run));
+        place run = place_of(p, f->mean_id_A, f->no_current ? 0.0 : f->mean_iq_A, hci_run_speed(e, r),
+                             sign_of(f->mean_speed_rad_per_s));
+        for (size_t k = 0; k < count; ++k) {
+            if (stands) run.x[3] = at[k].x[3];
+            nearest[k] = fmin(nearest[k], distance(&at[k], &run));
+        }
     }
-    return nearest;
 }
 
 static place place_at(const hci_playable *p, const hci_operating_point *x)
@@ -264,25 +270,32 @@ static place place_at(const hci_playable *p, const hci_operating_point *x)
                     sign_of(x->speed_rad_per_s));
 }
 
+/* The one whose distance is the largest; count where all are 0. */
+static size_t furthest_of(const double *distance_of, size_t count)
+{
+    double furthest = 0.0;
+    size_t best = count;
+    for (size_t k = 0; k < count; ++k) {
+        if (distance_of[k] <= furthest * (1.0 + 1e-9)) continue;
+        furthest = distance_of[k];
+        best = k;
+    }
+    return best;
+}
+
 size_t hci_points_not_recorded(const hci_regression *e, const hci_playable *p, const hci_point_choice *c)
 {
+    place at[HCI_OPERATING_POINTS];
+    double nearest[HCI_OPERATING_POINTS]; /* from a run, or a point that was chosen */
     size_t found = 0;
-    for (; found < c->most && found < c->count; ++found) {
-        double furthest = 0.0;
-        size_t best = c->count;
-        for (size_t k = 0; k < c->count; ++k) {
-            const place at = place_at(p, &c->point[k]);
-            double nearest = nearest_run(e, p, &at);
-            for (size_t j = 0; j < found; ++j) {
-                const place other = place_at(p, &c->point[c->chosen[j].point]);
-                nearest = fmin(nearest, distance(&at, &other));
-            }
-            if (nearest <= furthest * (1.0 + 1e-9)) continue;
-            furthest = nearest;
-            best = k;
-        }
-        if (best == c->count) break;
+    assert(c->count <= HCI_OPERATING_POINTS);
+    for (size_t k = 0; k < c->count; ++k)
+        at[k] = place_at(p, &c->point[k]);
+    nearest_runs(e, p, at, c->count, nearest);
+    for (size_t best; found < c->most && (best = furthest_of(nearest, c->count)) < c->count; ++found) {
         c->chosen[found] = (hci_telling_point){best, NAN, NAN, NAN};
+        for (size_t k = 0; k < c->count; ++k)
+            nearest[k] = fmin(nearest[k], distance(&at[k], &at[best]));
     }
     return found;
 }

@@ -28,7 +28,7 @@ typedef struct {
     double *work;                /* multiplications so far, about, over work_times; NULL: not counted */
     double work_times;           /* as much may be taken as for a usual list; 0: once */
     bool free_means;             /* of each segment: nothing is concluded from them */
-    hci_watch *watch;            /* of what follows the search; NULL: it is not ended, and not told */
+    hci_watch *watch;            /* by which the user ends it all; NULL: nobody does, or is told */
     hci_saliency_width saliency; /* what the machine's own leaves open */
 } hci_regression;
 

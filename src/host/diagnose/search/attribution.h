@@ -63,8 +63,6 @@ typedef struct {
     bool has_neutral;           /* of the machine */
     hci_progress *progress;     /* may be NULL */
     void *context;
-    hci_stop *stop; /* may be NULL */
-    void *stop_context;
     const char *(*slip)(void *context); /* as in hci_diagnose_options; may be NULL */
     void *slip_context;
     /* At the model of each round, and the effects that it is: any error ends the search with it; may be

@@ -31,8 +31,7 @@ bool hci_search_is_over(hci_search *s)
 
 bool hci_search_is_interrupted(hci_search *s)
 {
-    if (s->ended != HCI_WORK_INTERRUPTED && s->options->stop && s->options->stop(s->options->stop_context))
-        s->ended = HCI_WORK_INTERRUPTED;
+    if (hci_watch_stops(s->regression->watch)) s->ended = HCI_WORK_INTERRUPTED;
     return s->ended == HCI_WORK_INTERRUPTED;
 }
 

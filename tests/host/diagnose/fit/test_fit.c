@@ -196,6 +196,33 @@ static void test_a_fit_in_haste(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, 3.0, predictions_of_fit(2.0 * HCI_MOST_WORK));
 }
 
+static bool is_asked(void *context)
+{
+    ++*(long *)context;
+    return true;
+}
+
+/* Where the user ends it too, whatever bar it is to be below; a shorter one is not asked. */
+static void test_a_fit_that_is_ended(void)
+{
+    long asked = 0;
+    hci_watch watch = {.stop = is_asked, .stop_context = &asked};
+    record_two(100, 0.3, 0.0, 0.0);
+    weigh(NOISE_NM);
+    dataset.regression.known = NULL;
+    model_add("position_offset", "angle", NULL, 0.0);
+    dataset.regression.watch = &watch;
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 3.0, predictions_of_fit(0.0));
+    TEST_ASSERT_TRUE(asked == 1 && watch.stopped);
+    dataset.regression.watch = NULL;
+    const double ended = model.fit.square;
+    fit();
+    TEST_ASSERT_TRUE(model.fit.square < ended); /* the rest of the way */
+    watch.stopped = false, dataset.regression.watch = &watch;
+    fit();
+    TEST_ASSERT_EQUAL_INT64(1, asked);
+}
+
 /* ---- standard errors ---- */
 
 typedef struct {
@@ -292,6 +319,7 @@ int main(void)
     RUN_TEST(test_a_term_twice);
     RUN_TEST(test_an_angle_is_found);
     RUN_TEST(test_a_fit_in_haste);
+    RUN_TEST(test_a_fit_that_is_ended);
     RUN_TEST(test_standard_errors_are_the_scatter);
     RUN_TEST(test_correlated_noise_raises_the_errors);
     RUN_TEST(test_memory_is_out);

@@ -5,7 +5,8 @@
 
 static bool asked;
 static double work;
-static hci_attribute_options options;
+static hci_watch watch;
+static const hci_attribute_options options;
 static hci_regression regression;
 static hci_search search;
 
@@ -17,8 +18,8 @@ static bool is_asked(void *context)
 void setUp(void)
 {
     asked = false, work = 0.0;
-    options = (hci_attribute_options){.stop = is_asked, .stop_context = &asked};
-    regression = (hci_regression){.work = &work};
+    watch = (hci_watch){.stop = is_asked, .stop_context = &asked};
+    regression = (hci_regression){.work = &work, .watch = &watch};
     search = (hci_search){.regression = &regression, .options = &options};
 }
 
@@ -32,7 +33,7 @@ static void test_it_goes_on_while_nothing_ends_it(void)
     TEST_ASSERT_FALSE(hci_search_is_over(&search));
     TEST_ASSERT_FALSE(hci_search_is_interrupted(&search));
     TEST_ASSERT_EQUAL(HCI_WORK_COMPLETE, search.ended);
-    options.stop = NULL, regression.work = NULL;
+    regression.watch = NULL, regression.work = NULL;
     TEST_ASSERT_FALSE(hci_search_is_over(&search));
 }
 
