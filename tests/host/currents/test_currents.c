@@ -135,6 +135,16 @@ static void test_weights_that_are_refused(void)
     }
 }
 
+static void test_the_largest_and_the_least_weight(void)
+{
+    hci_target t;
+    const char *path = file("target.csv", "order,amplitude_Nm,phase_rad,weight\n0,1,0,1e-6\n6,1,0,1e6\n");
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_target_read(path, &t, &note), note.text);
+    TEST_ASSERT_EQUAL_DOUBLE(1e-6, hci_target_at(&t, 0.0).weight);
+    TEST_ASSERT_EQUAL_DOUBLE(1e6, hci_target_at(&t, 6.0).weight);
+    hci_target_release(&t);
+}
+
 /* ---- harmonics.csv ---- */
 
 /* sym 5 is of negative sequence, as neg 5 is: counted once, and said. */
@@ -213,6 +223,7 @@ int main(void)
     RUN_TEST(test_phases_that_look_like_degrees_are_told);
     RUN_TEST(test_weights_are_one_where_there_is_no_such_column);
     RUN_TEST(test_weights_that_are_refused);
+    RUN_TEST(test_the_largest_and_the_least_weight);
     RUN_TEST(test_a_set_has_each_component_once);
     RUN_TEST(test_zero_sequence_takes_a_neutral_conductor);
     RUN_TEST(test_currents_are_waves);

@@ -333,6 +333,27 @@ static void test_what_rounding_leaves(void)
     TEST_ASSERT_TRUE(estimate(0.5, 1e-4, 0.0, 0.05, 256).tells);
 }
 
+/* Without a current: a torque that is 0.05 N·m/A times the noise of the current sensors, and some noise. */
+static void test_what_the_noise_of_the_sensors_tells(void)
+{
+    hci_torque_estimate e;
+    hci_note note = {{0}};
+    for (int follows = 0; follows < 2; ++follows) {
+        hci_run run = steady(2000, 0.0, 0.0, 0.0);
+        for (size_t k = 0; k < 2000; ++k) {
+            const double i_A = ref_normal(&seed);
+            rec_phases(0.0, i_A, P * run.theta_m_rad[k], run.i_A + 3 * k);
+            run.torque_Nm[k] = (follows ? 0.05 * i_A : 0.05 * ref_normal(&seed)) + 0.01 * ref_normal(&seed);
+        }
+        TEST_ASSERT_EQUAL(HCI_OK, torque_estimate_of(&run, 0.05, &e, &note));
+        TEST_ASSERT_TRUE(e.tells && !e.within_rounding);
+        TEST_ASSERT_EQUAL(follows, e.is_of_noise);
+        if (follows) TEST_ASSERT_DOUBLE_WITHIN(1e-3, 0.05, e.constant_Nm_per_A);
+        if (follows) TEST_ASSERT_DOUBLE_WITHIN(1e-4, 0.0, e.time_constant_s);
+        rec_release(&run);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -348,5 +369,6 @@ int main(void)
     RUN_TEST(test_what_noise_is);
     RUN_TEST(test_an_order_is_taken_out);
     RUN_TEST(test_what_rounding_leaves);
+    RUN_TEST(test_what_the_noise_of_the_sensors_tells);
     return UNITY_END();
 }

@@ -180,6 +180,16 @@ static void test_sums_of_currents_join(void)
                      gram[4] == 4.0);
 }
 
+/* Where the noise of the sum is none, or is not known, there is no row of it. */
+static void test_sums_without_noise_are_no_rows(void)
+{
+    double deviation_A[] = {0.0};
+    regression.sum_deviation_A = deviation_A;
+    TEST_ASSERT_FALSE(sum_rows(&f, &segment));
+    deviation_A[0] = (double)NAN;
+    TEST_ASSERT_FALSE(sum_rows(&f, &segment));
+}
+
 /* ---- columns ---- */
 
 /* 10⁻¹² of the largest square of the same effect. */
@@ -285,6 +295,7 @@ int main(void)
     RUN_TEST(test_scatter_of_blocks);
     RUN_TEST(test_joined_bins_count);
     RUN_TEST(test_sums_of_currents_join);
+    RUN_TEST(test_sums_without_noise_are_no_rows);
     RUN_TEST(test_columns_of_rounding);
     RUN_TEST(test_expectations_are_rows);
     RUN_TEST(test_what_a_run_shows);

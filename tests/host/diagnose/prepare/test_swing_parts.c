@@ -241,6 +241,10 @@ static void test_which_line_stands_out(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 100.0 / 2.048, line_find(&c));
     c.im[101] = 900.0;
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 101.0 / 2.048, line_find(&c));
+    c.re[510] = c.im[510] = 1e3; /* the last that has neighbours */
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 510.0 / 2.048, line_find(&c));
+    c.re[511] = c.im[511] = 1e4;
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 101.0 / 2.048, line_find(&c));
 }
 
 /* ---- what else it may be ---- */

@@ -73,6 +73,25 @@ static void test_single_terms_that_predict_nothing(void)
     hci_fitted_model_release(&search.single);
 }
 
+/* Of runs left out without the iron that saturates nothing is asked: their ripple may be described badly. */
+static void test_ripple_is_asked_of_saturation(void)
+{
+    bool of_ripple = true;
+    double share = 0.0;
+    for (size_t r = 0; r < 8; ++r) {
+        record(450, &(point){60.0 + 30.0 * (double)r, 0.0, 0.0, 0.0, 0.0});
+        for (size_t k = 0; k < 450; ++k)
+            run[r].torque_Nm[k] += 0.1 * (1.0 + 0.2 * (double)(r % 3)) * sin(6.0 * P * run[r].theta_m_rad[k]);
+    }
+    search_start();
+    model_add("cogging", "sine", "cosine", 6.0);
+    model_fit();
+    TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_unpredicted(&search, &model.candidates, &share, &note));
+    TEST_ASSERT_TRUE(share > 0.0 && share < MOSTLY);
+    TEST_ASSERT_EQUAL_INT(HCI_OK, is_of_ripple(&search, &model.candidates, share, &of_ripple, &note));
+    TEST_ASSERT_FALSE(of_ripple);
+}
+
 static void value_set(double order, double value)
 {
     for (size_t k = 0; k < model.candidates.count; ++k)
@@ -119,6 +138,7 @@ int main(void)
     RUN_TEST(test_what_is_much);
     RUN_TEST(test_what_means_of_their_own_cost);
     RUN_TEST(test_single_terms_that_predict_nothing);
+    RUN_TEST(test_ripple_is_asked_of_saturation);
     RUN_TEST(test_orders_that_cancel);
     return UNITY_END();
 }
