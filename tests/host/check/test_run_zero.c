@@ -169,6 +169,19 @@ static void test_reach_of_the_zero(void)
     }
 }
 
+/* Friction stands against the motion, however slow it is. */
+static void test_reach_at_a_slow_speed(void)
+{
+    const check_run_zero at = {true, 0.0, 1e-3, false};
+    const double reach = hci_check_zero_error(&data, &as, at);
+    for (int k = 0; k < RUNS; ++k) {
+        TEST_ASSERT_TRUE(motor_run[k].has_speed);
+        motor_run[k].speed = 0.1;
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, reach, hci_check_zero_error(&data, &as, at));
+    TEST_ASSERT_TRUE(reach > 0.0);
+}
+
 /* Torques of a zero that is so far off: it is told where it explains more than twice its error. */
 static void test_zero_that_is_told(void)
 {
@@ -268,6 +281,7 @@ int main(void)
     RUN_TEST(test_loss_of_both_signs);
     RUN_TEST(test_error_of_the_zero);
     RUN_TEST(test_reach_of_the_zero);
+    RUN_TEST(test_reach_at_a_slow_speed);
     RUN_TEST(test_zero_that_is_told);
     return UNITY_END();
 }

@@ -104,6 +104,23 @@ static void test_a_scale_is_held(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-15, 0.75, by_value[0]);
 }
 
+/* Any of the runs in use. */
+static void test_which_runs_hardly_accelerate(void)
+{
+    const bool use[] = {true, true, true};
+    const hci_binned_samples samples = {.run_count = 3};
+    for (size_t which = 0; which < 3; ++which) {
+        hci_run run[3] = {{.hardly_accelerates = false}};
+        bool none[3] = {true, true, true};
+        run[which].hardly_accelerates = true;
+        none[which] = false;
+        hci_regression e = {.samples = &samples, .runs = run, .use = use};
+        TEST_ASSERT_TRUE(any_hardly_accelerates(&e));
+        e.use = none;
+        TEST_ASSERT_FALSE(any_hardly_accelerates(&e));
+    }
+}
+
 /* Of a path that is no turn, by steps of 1 and 3 in turns: (1 + 9)/(1 + 3), however small they are; of
  * samples in one place none. */
 static void test_the_usual_step(void)
@@ -130,6 +147,7 @@ int main(void)
     RUN_TEST(test_samples_that_tell_nothing);
     RUN_TEST(test_what_is_beyond_a_known_load_stays);
     RUN_TEST(test_a_scale_is_held);
+    RUN_TEST(test_which_runs_hardly_accelerate);
     RUN_TEST(test_the_usual_step);
     return UNITY_END();
 }
