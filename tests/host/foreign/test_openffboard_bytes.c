@@ -63,11 +63,25 @@ static void test_what_is_added(void)
     }
 }
 
+/* Whole ones that two bytes hold. */
+static void test_orders_that_are_read(void)
+{
+    static const char *const TERM[] = {"1:40.5:0.5\n",     "65535:40.5:0.5\n", "65536:40.5:0.5\n",
+                                       "98000:40.5:0.5\n", "0:40.5:0.5\n",     "6.5:40.5:0.5\n"};
+    for (size_t k = 0; k < 6; ++k) {
+        hci_note note = {{0}};
+        map.terms = 0;
+        TEST_ASSERT_EQUAL(k < 2 ? HCI_OK : HCI_ERROR_INPUT, read("map", TERM[k], &map, &note));
+        TEST_ASSERT_EQUAL_UINT64(k < 2, map.terms);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_what_the_numbers_hold);
     RUN_TEST(test_the_image);
     RUN_TEST(test_what_is_added);
+    RUN_TEST(test_orders_that_are_read);
     return UNITY_END();
 }

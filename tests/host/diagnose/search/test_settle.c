@@ -125,6 +125,29 @@ static void test_means_that_no_law_predicts(void)
     leaves_all_to_the_means();
 }
 
+/* Beside them only noise is left, or a ripple as large as they. */
+static void test_means_beside_a_ripple(void)
+{
+    static const double OFF_NM[] = {1.0, -1.0, -0.6, 1.1, 0.4, -0.9, -0.2, 0.8};
+    for (int is_alone = 0; is_alone < 2; ++is_alone) {
+        hci_attribution a = {.types = 0};
+        for (size_t r = 0; r < 8; ++r)
+            record(450, &(point){60.0 + 30.0 * (double)r, 0.0, 0.0, 10.0 * NOISE_NM * OFF_NM[r],
+                                 is_alone ? 0.0 : 20.0 * NOISE_NM});
+        search_start();
+        model_add("friction", "coulomb", NULL, 0.0);
+        model_fit();
+        a.model = model;
+        memset(&model, 0, sizeof model);
+        TEST_ASSERT_EQUAL_INT(HCI_OK, hci_search_settle(&search, &a, &note));
+        TEST_ASSERT_EQUAL(is_alone, a.means_alone);
+        hci_attribution_release(&a);
+        if (is_alone) break;
+        tearDown();
+        setUp();
+    }
+}
+
 /* Four loads of one sign, with a mean that falls with the current, and a whole co-energy of which the mean
  * is one that keeps its sign: single: the model of single terms that was kept beside it. */
 static hci_candidates settled_beside(const char *single)
@@ -231,6 +254,7 @@ int main(void)
     RUN_TEST(test_what_a_filter_leaves_is_no_noise);
     RUN_TEST(test_means_of_noise_are_known);
     RUN_TEST(test_means_that_no_law_predicts);
+    RUN_TEST(test_means_beside_a_ripple);
     RUN_TEST(test_a_whole_that_keeps_its_sign_gives_way);
     return UNITY_END();
 }
