@@ -414,6 +414,7 @@ static bool is_untested(const hci_attribution *a, const hci_diagnosis *d, const 
  * needs no comparison. */
 static bool stands_out(const hci_attribution *a, const hci_verdict *v)
 {
+    if (a->unknown && a->means_alone) return true; /* of the ripple nothing is unknown */
     if (a->unknown) return a->unexplained_Nm < STANDS * v->explained_Nm;
     return v->compared || !is_minor(a, v);
 }

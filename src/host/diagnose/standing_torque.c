@@ -124,13 +124,18 @@ static hci_status fit_other(exchange *x, hci_note *note)
  * tell. */
 #define OTHER_CAUSES 0.05
 
+/* Standard errors, from which on a value is one: nothing in its place is no other explanation. */
+#define SURELY 5.0
+
 /* A friction that drives is none. */
 static bool is_as_good(const exchange *x)
 {
     const hci_candidate *in = find(&x->other.candidates, standing_of(x->in));
     const hci_fit *fit = &x->a->model.fit;
     const double untold = fmax(HCI_DECISIVE, OTHER_CAUSES * (fit->square - fit->rows));
-    return x->other.fit.square < fit->square + untold && (x->in != FRICTION || in->term[0].value > 0.0);
+    return x->other.fit.square < fit->square + untold &&
+           fabs(in->term[0].value) > SURELY * in->term[0].std_error &&
+           (x->in != FRICTION || in->term[0].value > 0.0);
 }
 
 static hci_status constant_of(const hci_regression *e, const hci_candidates *candidates,

@@ -667,7 +667,6 @@ MISTAKE(kilogram_centimetre, x->torque_Nm *= 10.1972)
 MISTAKE(microseconds, x->time_s *= 1e6)
 MISTAKE(behind_a_gear, x->theta *= 5.0)
 MISTAKE(turns, x->theta /= 2.0 * REF_PI)
-MISTAKE(radians_for_degrees, x->theta *= REF_PI / 180.0)
 
 static void test_slips_of_recordings(void)
 {
@@ -679,7 +678,6 @@ static void test_slips_of_recordings(void)
         {"theta_electrical_for_mechanical", electrical_angle, ""},
         {"theta_degrees_for_radians", degrees, ""},
         {"theta_turns_for_radians", turns, "in turns"},
-        {"theta_radians_for_degrees", radians_for_degrees, "and is in radians"},
         {"run_angle_zero_d_axis", from_d_axis, ""},
         {"run_angle_zero_q_axis", from_crest, "crest"},
         {"run_angle_zero_q_axis", from_trough, "trough"},

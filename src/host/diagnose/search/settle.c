@@ -183,11 +183,14 @@ static hci_status unpredicted_leave(hci_search *s, hci_candidates *model, hci_no
     return status;
 }
 
-/* Whether a candidate of the iron or the magnets makes mean torque at currents that do not vary: order 1 of
- * the back-EMF, order 0 of an inductance. */
+/* Whether a candidate makes mean torque alone at currents and speeds that do not vary: order 1 of the
+ * back-EMF, order 0 of an inductance, friction, the zero of a torque sensor. */
 static bool makes_mean(const hci_candidate *x)
 {
+    const unsigned traits = x->type->parameter[x->term[0].parameter].traits;
     bool all = x->type->propose_coenergy != NULL;
+    if (x->type->coulomb_Nm || x->type->drag_Nm) return true;
+    if (traits == (HCI_PARAMETER_OF_TRANSDUCER | HCI_PARAMETER_LINEAR)) return true;
     for (size_t j = 0; j < x->count; ++j)
         all = all && x->term[j].order <= 1.0 + HCI_ORDER_TOLERANCE;
     return all;
@@ -502,7 +505,7 @@ static void squares_leave(hci_candidates *model)
 static hci_status ripple_stays(hci_search *s, hci_attribution *a, hci_fitted_model *before, hci_note *note)
 {
     bool known = false, about = false;
-    if (!a->unknown || a->means_open || s->ended != HCI_WORK_COMPLETE ||
+    if (!a->unknown || a->means_open || s->ended == HCI_WORK_INTERRUPTED ||
         hci_candidates_types_in(&a->model.candidates) >= hci_candidates_types_in(&before->candidates))
         return HCI_OK;
     hci_candidates_remove_type(&before->candidates, &hci_empirical_type);
