@@ -103,6 +103,32 @@ size_t cli_tune_load_sizes(const cli_tuning *t)
     return sizes;
 }
 
+/* Way of the shaft over a recording, rad; 0: it has no angle. */
+static double way_rad(const hci_run *r)
+{
+    return r->theta_m_rad && r->count > 1 ? r->theta_m_rad[r->count - 1] - r->theta_m_rad[0] : 0.0;
+}
+
+static double sum_of(const double *x, size_t count)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < count; ++k)
+        sum += x[k];
+    return sum;
+}
+
+bool cli_tune_loads_drive_alone(const cli_tuning *t)
+{
+    bool any = false;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        if (r->torque_source != HCI_TORQUE_MEASURED || !is_load(t, r)) continue;
+        if (!(sum_of(r->torque_Nm, r->count) * way_rad(r) > 0.0)) return false;
+        any = true;
+    }
+    return any;
+}
+
 bool cli_tune_has_free_turn(const cli_tuning *t)
 {
     for (size_t k = 0; k < t->runs.count; ++k)

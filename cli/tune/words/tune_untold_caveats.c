@@ -52,6 +52,22 @@ static void append_of_scale(cli_tuning *t)
                       : ", and loads at three currents the iron, which takes more the larger they are");
 }
 
+#define A_DRAG 0.01 /* of the torque per ampere, that a gear or a belt takes */
+
+/* Where the load is turned against the motor the drag turns its sign, and the torque per ampere does not. */
+static void append_of_drag(cli_tuning *t)
+{
+    const double percent = 100.0 * fabs(found_above_sheet(t));
+    if (t->is_solved && !t->has_emf && percent > 100.0 * A_DRAG && cli_tune_loads_drive_alone(t))
+        cli_tune_caveat(
+            t,
+            "That no drag before the torque sensor grows with the load, as of a gear or a belt, is "
+            "taken on trust, since the motor drives in all of these loads: where it makes the %.2g %% "
+            "by which the torque per ampere is off the sheet, as much of the ripple that the table "
+            "takes away stays, beside what is promised. The same loads turned back tell it",
+            percent);
+}
+
 /* Whether all that is known of the torque is a current, of which a constant of the sheet makes N·m. */
 static bool is_of_current(const cli_tuning *t)
 {
@@ -112,6 +128,7 @@ static void append_of_torque(cli_tuning *t)
         cli_tune_caveat(t, "Orders above %.3g were not looked at, since the samples lie too far apart",
                         t->highest_order);
     append_of_scale(t);
+    append_of_drag(t);
     append_of_constant(t);
     if (t->mains_Hz > 0.0 && t->is_solved)
         cli_tune_caveat(t,

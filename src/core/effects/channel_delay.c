@@ -150,7 +150,7 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
 }
 
 static const hci_effect_correction CORRECTION[] = {
-    {"take for the currents, for their delay, the angle of ", 0.0, " s before", NULL, true},
+    {"take for the currents, for their delay, the angle of ", 0.0, " s before", NULL, false},
     {"add to the angle, for its delay, the speed times ", 0.0, " s", NULL, true},
     {NULL, 0.0, NULL, NULL, false}};
 

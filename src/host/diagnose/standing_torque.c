@@ -1,7 +1,6 @@
 #include "host/diagnose/standing_torque.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "hci/math/harmonic.h"
 #include "host/diagnose/fit/fit.h"
@@ -11,10 +10,13 @@
 
 /* ---- what stands in a mean */
 
-enum { ZERO, FRICTION, SALIENCY, KINDS };
+enum { ZERO, FRICTION, SALIENCY, TORQUE_PER_AMPERE, KINDS };
 
 static const char *const NAME[KINDS] = {"the zero of the torque sensor", "the friction",
-                                        "a reluctance torque that is not declared"};
+                                        "a reluctance torque that is not declared",
+                                        "another torque per ampere"};
+
+static const double ORDER[KINDS] = {[TORQUE_PER_AMPERE] = 1.0};
 
 /* One term of an effect. */
 typedef struct {
@@ -24,8 +26,8 @@ typedef struct {
 
 static bool is_zero(const hci_effect_type *type, size_t k)
 {
-    const hci_effect_parameter *p = &type->parameter[k];
-    return p->traits == (HCI_PARAMETER_OF_TRANSDUCER | HCI_PARAMETER_LINEAR) && strcmp(p->unit, "Nm") == 0;
+    size_t parameter;
+    return type == hci_sensor_zero(&parameter) && k == parameter;
 }
 
 static bool is_coulomb(const hci_effect_type *type, size_t k)
@@ -42,9 +44,15 @@ static bool is_saliency(const hci_effect_type *type, size_t k)
            !(traits & HCI_PARAMETER_WITH_LOAD) && !(type->parameter[k].least_order > 0.0);
 }
 
+static bool is_of_magnets(const hci_effect_type *type, size_t k)
+{
+    return (type->parameter[k].traits & HCI_PARAMETER_WITH_LOAD) != 0;
+}
+
 static standing standing_of(int kind)
 {
-    static bool (*const IS[KINDS])(const hci_effect_type *, size_t) = {is_zero, is_coulomb, is_saliency};
+    static bool (*const IS[KINDS])(const hci_effect_type *, size_t) = {is_zero, is_coulomb, is_saliency,
+                                                                       is_of_magnets};
     for (size_t t = 0; t < hci_candidate_types(); ++t)
         for (size_t k = 0; k < hci_candidate_type(t)->parameter_count; ++k)
             if (IS[kind](hci_candidate_type(t), k)) return (standing){hci_candidate_type(t), k};
@@ -52,12 +60,13 @@ static standing standing_of(int kind)
 }
 
 /* The candidate of the model that is this term alone; NULL: none. */
-static hci_candidate *find(const hci_candidates *model, standing x)
+static hci_candidate *find(const hci_candidates *model, int kind)
 {
+    const standing x = standing_of(kind);
     for (size_t k = 0; k < model->count; ++k) {
         hci_candidate *c = &model->candidate[k];
         if (c->in && c->type == x.type && c->count == 1 && c->term[0].parameter == x.parameter &&
-            fabs(c->term[0].order) <= HCI_ORDER_TOLERANCE)
+            fabs(c->term[0].order - ORDER[kind]) <= HCI_ORDER_TOLERANCE)
             return c;
     }
     return NULL;
@@ -66,40 +75,19 @@ static hci_candidate *find(const hci_candidates *model, standing x)
 /* Whether the model, or the machine as it is declared, has it, or more of the kind. */
 static bool has(const hci_regression *e, const hci_candidates *model, int kind)
 {
-    const standing x = standing_of(kind);
-    if (kind == ZERO) return find(model, x) != NULL;
+    if (kind == ZERO || kind == TORQUE_PER_AMPERE) return find(model, kind) != NULL;
     if (kind == SALIENCY && e->machine->slope_count > 0) return true;
-    return hci_candidates_have(model, x.type);
+    return hci_candidates_have(model, standing_of(kind).type);
 }
 
 /* ---- one in the place of another */
 
-/* The torque per ampere, which then is another one. */
-static standing torque_per_ampere(void)
+static hci_status add(hci_candidates *model, int kind, hci_note *note)
 {
-    for (size_t t = 0; t < hci_candidate_types(); ++t)
-        for (size_t k = 0; k < hci_candidate_type(t)->parameter_count; ++k)
-            if (hci_candidate_type(t)->parameter[k].traits & HCI_PARAMETER_WITH_LOAD)
-                return (standing){hci_candidate_type(t), k};
-    return (standing){NULL, 0};
-}
-
-static bool has_order(const hci_candidates *model, standing x, double order)
-{
-    for (size_t k = 0; k < model->count; ++k) {
-        const hci_candidate *c = &model->candidate[k];
-        if (c->in && c->type == x.type && c->term[0].parameter == x.parameter &&
-            fabs(c->term[0].order - order) <= HCI_ORDER_TOLERANCE)
-            return true;
-    }
-    return false;
-}
-
-static hci_status add(hci_candidates *model, standing x, double order, hci_note *note)
-{
+    const standing x = standing_of(kind);
     const hci_candidate more = {
-        .type = x.type, .term = {{.parameter = x.parameter, .order = order}}, .count = 1, .in = true};
-    return has_order(model, x, order) ? HCI_OK : hci_candidates_add(model, &more, note);
+        .type = x.type, .term = {{.parameter = x.parameter, .order = ORDER[kind]}}, .count = 1, .in = true};
+    return find(model, kind) ? HCI_OK : hci_candidates_add(model, &more, note);
 }
 
 typedef struct {
@@ -109,14 +97,15 @@ typedef struct {
     hci_fitted_model other;
 } exchange;
 
+/* Beside it the torque per ampere is another one, too, unless that is what goes. */
 static hci_status fit_other(exchange *x, hci_note *note)
 {
     hci_candidates *other = &x->other.candidates;
     hci_status status = hci_fitted_model_copy(&x->a->model, &x->other, note);
     if (status) return status;
-    find(other, standing_of(x->out))->in = false;
-    status = add(other, standing_of(x->in), 0.0, note);
-    if (!status) status = add(other, torque_per_ampere(), 1.0, note);
+    find(other, x->out)->in = false;
+    status = add(other, x->in, note);
+    if (!status && x->out != TORQUE_PER_AMPERE) status = add(other, TORQUE_PER_AMPERE, note);
     return status ? status : hci_regression_fit(x->regression, other, &x->other.fit, note);
 }
 
@@ -130,7 +119,7 @@ static hci_status fit_other(exchange *x, hci_note *note)
 /* A friction that drives is none. */
 static bool is_as_good(const exchange *x)
 {
-    const hci_candidate *in = find(&x->other.candidates, standing_of(x->in));
+    const hci_candidate *in = find(&x->other.candidates, x->in);
     const hci_fit *fit = &x->a->model.fit;
     const double untold = fmax(HCI_DECISIVE, OTHER_CAUSES * (fit->square - fit->rows));
     return x->other.fit.square < fit->square + untold &&
@@ -208,7 +197,9 @@ hci_status hci_standing_torque_judge(const hci_regression *e, hci_attribution *a
     for (int out = 0; out < KINDS && !status; ++out)
         for (int in = 0; in < KINDS && !status; ++in) {
             exchange x = {.regression = e, .a = a, .out = out, .in = in};
-            if (!find(&a->model.candidates, standing_of(out)) || has(e, &a->model.candidates, in)) continue;
+            if (in == TORQUE_PER_AMPERE || !find(&a->model.candidates, out) ||
+                has(e, &a->model.candidates, in))
+                continue;
             if (!verdict_of(a, in)->ambiguous) status = try_one(&x, note);
         }
     return status;

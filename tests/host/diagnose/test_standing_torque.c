@@ -65,6 +65,29 @@ static void test_idle_turns_both_ways_tell(void)
     TEST_ASSERT_EQUAL(HCI_FINDING_ADDED, found("friction")->verdict);
 }
 
+/* One load alone: what it reads too little is the torque per ampere, the zero of the sensor, or friction. */
+static void test_one_load_tells_no_torque_per_ampere(void)
+{
+    measure_at(8.0, 20.0, -DRAG_Nm);
+    TEST_ASSERT_EQUAL(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_NOT_NULL(diagnosis.standing_taken);
+    const double share = DRAG_Nm / (1.5 * K_NM_PER_A * 8.0);
+    TEST_ASSERT_DOUBLE_WITHIN(1.2 * share, 0.0, diagnosis.standing_share);
+}
+
+/* In one direction what is read too much is no friction, and the zero of the sensor in all loads. */
+static void test_a_zero_is_no_friction_that_drives(void)
+{
+    measure_at(4.0, 20.0, DRAG_Nm);
+    measure_at(8.0, 20.0, DRAG_Nm);
+    measure_at(12.0, 20.0, DRAG_Nm);
+    measure_at(0.0, 20.0, DRAG_Nm);
+    TEST_ASSERT_EQUAL(HCI_OK, diagnose(NULL));
+    TEST_ASSERT_EQUAL(HCI_FINDING_ADDED, found("torque_sensor")->verdict);
+    TEST_ASSERT_EQUAL(HCI_FINDING_REJECTED, found("friction")->verdict);
+    TEST_ASSERT_TRUE(diagnosis.uncertainty.machines > 0);
+}
+
 /* A zero of the sensor that is another one in each recording. */
 static void test_the_ripple_stays_beside_means_that_nothing_explains(void)
 {
@@ -84,6 +107,8 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_friction_or_the_zero_of_the_sensor);
     RUN_TEST(test_idle_turns_both_ways_tell);
+    RUN_TEST(test_one_load_tells_no_torque_per_ampere);
+    RUN_TEST(test_a_zero_is_no_friction_that_drives);
     RUN_TEST(test_the_ripple_stays_beside_means_that_nothing_explains);
     return UNITY_END();
 }

@@ -95,6 +95,22 @@ bool hci_candidate_is_gain(const hci_effect_type *type)
     return type->sum_by_value && strcmp(type->parameter[0].unit, "1") == 0;
 }
 
+/* In N·m, whatever the current and the speed are. */
+static bool is_sensor_zero(const hci_effect_parameter *p)
+{
+    return p->traits == (HCI_PARAMETER_OF_TRANSDUCER | HCI_PARAMETER_LINEAR) && strcmp(p->unit, "Nm") == 0;
+}
+
+const hci_effect_type *hci_sensor_zero(size_t *parameter)
+{
+    for (size_t t = 0; t < hci_candidate_types(); ++t)
+        for (size_t k = 0; k < hci_candidate_type(t)->parameter_count; ++k) {
+            *parameter = k;
+            if (is_sensor_zero(&hci_candidate_type(t)->parameter[k])) return hci_candidate_type(t);
+        }
+    return NULL;
+}
+
 void hci_candidate_shorten(hci_candidate *x)
 {
     --x->count;

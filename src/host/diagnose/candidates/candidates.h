@@ -59,6 +59,9 @@ bool hci_candidate_is_unbalanced(const hci_effect_type *type, size_t parameter, 
  * nothing of it. */
 bool hci_candidate_is_gain(const hci_effect_type *type);
 
+/* The type that has the zero of a torque sensor, and which of its parameters that is; NULL: none has. */
+const hci_effect_type *hci_sensor_zero(size_t *parameter);
+
 /* Leaves the last of several terms out. */
 void hci_candidate_shorten(hci_candidate *candidate);
 

@@ -241,6 +241,21 @@ static hci_status fewer_powers_try(hci_search *s, hci_fitted_model *model, const
     return status || *kept ? status : hci_search_renew(s, model, note);
 }
 
+/* In one direction of the turn a friction that drives is the zero of a torque sensor. */
+static hci_status zero_try(hci_search *s, hci_fitted_model *model, hci_note *note)
+{
+    hci_candidate zero = {.count = 1, .in = true};
+    hci_fitted_model other = {0};
+    zero.type = hci_sensor_zero(&zero.term[0].parameter);
+    if (!zero.type || hci_candidates_find_in(&model->candidates, &zero)) return HCI_OK;
+    hci_status status = hci_fitted_model_copy(model, &other, note);
+    if (!status) status = hci_candidates_add(&other.candidates, &zero, note);
+    if (!status) status = hci_search_renew(s, &other, note);
+    if (!status && other.fit.score < model->fit.score - HCI_DECISIVE) hci_fitted_model_replace(model, &other);
+    hci_fitted_model_release(&other);
+    return status ? status : hci_search_renew(s, model, note);
+}
+
 static hci_status unnatural_leave(hci_search *s, hci_fitted_model *model, const hci_effect_type *type,
                                   hci_note *note)
 {
@@ -250,7 +265,8 @@ static hci_status unnatural_leave(hci_search *s, hci_fitted_model *model, const 
     if (status || kept) return status;
     status = disbelieve(s, model, type, 1.0, note);
     hci_candidates_remove_type(&model->candidates, type);
-    return status ? status : hci_search_renew(s, model, note);
+    if (!status) status = hci_search_renew(s, model, note);
+    return status || !type->coulomb_Nm ? status : zero_try(s, model, note);
 }
 
 hci_status hci_search_keep_brakes(hci_search *s, hci_fitted_model *model, hci_note *note)

@@ -568,16 +568,20 @@ static void say_added(const hci_words *w, const hci_diagnosis *d)
 
 enum { THESE_TWO = 2 };
 
+#define BELIEVABLE_SHARE 0.3 /* of the torque per ampere: iron in the model takes a part of a larger one */
+
 /* Where each direction of the turn has one load. */
 static void say_standing(const hci_words *w, const hci_diagnosis *d)
 {
     hci_words_say(w,
                   "%sWhether %s, as is taken, or %s is in the means is not told, since each direction of the "
                   "turn has one load alone: with the other one the torque per ampere, and the mean torque of "
-                  "any currents, is %.2g %% %s. A turn of each load the other way, or idle turns both ways, "
-                  "would tell.",
-                  any(d, HCI_FINDING_ADDED) ? " " : "", d->standing_taken, d->standing_instead,
-                  100.0 * fabs(d->standing_share), d->standing_share > 0.0 ? "larger" : "smaller");
+                  "any currents, is ",
+                  any(d, HCI_FINDING_ADDED) ? " " : "", d->standing_taken, d->standing_instead);
+    if (fabs(d->standing_share) < BELIEVABLE_SHARE)
+        hci_words_say(w, "%.2g %% ", 100.0 * fabs(d->standing_share));
+    hci_words_say(w, "%s. A turn of each load the other way, or idle turns both ways, would tell.",
+                  d->standing_share > 0.0 ? "larger" : "smaller");
 }
 
 static void say_ambiguous(const hci_words *w, const hci_diagnosis *d)

@@ -209,24 +209,24 @@ static void test_the_current_that_is_none(void)
     TEST_ASSERT_FALSE(has_current(&data, &run[0]));
 }
 
-/* 1, p and p/2 electrical radians, and degrees, each once. */
+/* 1, p and p/2 electrical radians, and so for degrees, turns, and radians that were read as degrees, each
+ * once. */
 static void test_scales_of_an_angle(void)
 {
     static const struct {
         double pole_pairs;
         size_t scales;
         double scale[3];
-    } CASES[] = {{4.0, 6, {1.0, 4.0, 2.0}}, {5.0, 4, {1.0, 5.0}}, {2.0, 4, {1.0, 2.0}}, {1.0, 2, {1.0}}};
+    } CASES[] = {{4.0, 12, {1.0, 4.0, 2.0}}, {5.0, 8, {1.0, 5.0}}, {2.0, 8, {1.0, 2.0}}, {1.0, 4, {1.0}}};
+    static const double UNIT[] = {1.0, HCI_PI / 180.0, 2.0 * HCI_PI, 180.0 / HCI_PI};
     for (size_t c = 0; c < sizeof CASES / sizeof *CASES; ++c) {
-        const size_t half = CASES[c].scales / 2;
+        const size_t of_unit = CASES[c].scales / 4;
         data.scales = 0;
         data.value[CHECK_pole_pairs] = CASES[c].pole_pairs;
         scales_make(&data);
         TEST_ASSERT_EQUAL_UINT64(CASES[c].scales, data.scales);
-        for (size_t k = 0; k < half; ++k) {
-            TEST_ASSERT_DOUBLE_WITHIN(1e-12, CASES[c].scale[k], data.scale[k]);
-            TEST_ASSERT_DOUBLE_WITHIN(1e-12, CASES[c].scale[k] * HCI_PI / 180.0, data.scale[half + k]);
-        }
+        for (size_t k = 0; k < CASES[c].scales; ++k)
+            TEST_ASSERT_DOUBLE_WITHIN(1e-9, CASES[c].scale[k % of_unit] * UNIT[k / of_unit], data.scale[k]);
     }
 }
 
