@@ -484,19 +484,50 @@ static bool is_one_load(const hci_search *s)
     return least_A > LIKE_LOAD * most_A;
 }
 
-/* Whether its ripple grows faster than the current. */
-static bool is_of_squares(const hci_candidate *x)
+/* Whether the ripple of a parameter grows faster than the current. */
+static bool is_of_squares(const hci_effect_type *type, size_t parameter)
 {
-    const unsigned traits = x->type->parameter[x->term[0].parameter].traits;
-    return x->type->beyond_quadratic || (x->type->propose_coenergy && (traits & HCI_PARAMETER_WITH_CURRENT) &&
-                                         !(traits & HCI_PARAMETER_WITH_LOAD));
+    const unsigned traits = type->parameter[parameter].traits;
+    return type->beyond_quadratic || (type->propose_coenergy && (traits & HCI_PARAMETER_WITH_CURRENT) &&
+                                      !(traits & HCI_PARAMETER_WITH_LOAD));
 }
 
-/* At one load a ripple is that of the magnets at any other, too, as far as is known. */
-static void squares_leave(hci_candidates *model)
+/* left: out, whether any does. */
+static void squares_leave(hci_candidates *model, bool *left)
 {
-    for (size_t k = 0; k < model->count; ++k)
-        if (model->candidate[k].in && is_of_squares(&model->candidate[k])) model->candidate[k].in = false;
+    *left = false;
+    for (size_t k = 0; k < model->count; ++k) {
+        hci_candidate *x = &model->candidate[k];
+        if (!x->in || !is_of_squares(x->type, x->term[0].parameter)) continue;
+        x->in = false;
+        *left = true;
+    }
+}
+
+enum { MOST_INSTEAD = 8 };
+
+/* What makes the ripple that these made, at means that are free. */
+static hci_status others_come(hci_search *s, hci_fitted_model *model, hci_note *note)
+{
+    bool denied[HCI_MOST_TYPES] = {false}, added = true;
+    for (size_t r = 0; hci_effect_type_at(r); ++r)
+        denied[r] = is_of_squares(hci_effect_type_at(r), 0);
+    s->denied = denied;
+    s->regression->free_means = true;
+    hci_status status = hci_search_renew(s, model, note);
+    for (int k = 0; k < MOST_INSTEAD && added && !status && !hci_search_is_over(s); ++k)
+        status = hci_search_forward(s, model, &added, note);
+    s->regression->free_means = false;
+    s->denied = NULL;
+    return status;
+}
+
+/* At one load a ripple is that of the magnets, or cogging torque, at any other, too, as far as is known. */
+static hci_status one_load_take(hci_search *s, hci_fitted_model *model, hci_note *note)
+{
+    bool left = false;
+    if (is_one_load(s)) squares_leave(&model->candidates, &left);
+    return left ? others_come(s, model, note) : HCI_OK;
 }
 
 /* Where settling took effects out for the sake of means that nothing explains, those that describe the ripple
@@ -510,8 +541,9 @@ static hci_status ripple_stays(hci_search *s, hci_attribution *a, hci_fitted_mod
         return HCI_OK;
     hci_candidates_remove_type(&before->candidates, &hci_empirical_type);
     mean_terms_leave(&before->candidates);
-    if (is_one_load(s)) squares_leave(&before->candidates);
     hci_status status = are_means_about(s, &about, note);
+    if (!status && about) status = one_load_take(s, before, note);
+    mean_terms_leave(&before->candidates);
     if (!status && about) status = is_ripple_known(s, before, &known, note);
     if (status || !known) return status;
     hci_fitted_model_replace(&a->model, before);
