@@ -102,6 +102,17 @@ static void test_the_ripple_stays_beside_means_that_nothing_explains(void)
     TEST_ASSERT_TRUE(diagnosis.means_open && diagnosis.means_alone);
 }
 
+/* Two opposite loads without an idle turn: cogging torque, which keeps its sign, is no reluctance torque that
+ * hardly leaves the magnets any. */
+static void test_opposite_loads_tell_their_ripple(void)
+{
+    measure_at(8.0, 20.0, 0.02);
+    measure_at(-8.0, 20.0, 0.05);
+    TEST_ASSERT_EQUAL(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_NOT_EQUAL(HCI_FINDING_REJECTED, found("cogging")->verdict);
+    TEST_ASSERT_NOT_EQUAL(HCI_FINDING_REJECTED, found("back_emf")->verdict);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -110,5 +121,6 @@ int main(void)
     RUN_TEST(test_one_load_tells_no_torque_per_ampere);
     RUN_TEST(test_a_zero_is_no_friction_that_drives);
     RUN_TEST(test_the_ripple_stays_beside_means_that_nothing_explains);
+    RUN_TEST(test_opposite_loads_tell_their_ripple);
     return UNITY_END();
 }

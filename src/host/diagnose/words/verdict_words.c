@@ -591,7 +591,8 @@ static void say_ambiguous(const hci_words *w, const hci_diagnosis *d)
         say_standing(w, d);
         if (count_of(d, HCI_FINDING_AMBIGUOUS) <= THESE_TWO) return;
     }
-    hci_words_say(w, "%sThese recordings do not tell ", any(d, HCI_FINDING_ADDED) ? " " : "");
+    hci_words_say(w, "%sThese recordings do not tell ",
+                  d->standing_taken || any(d, HCI_FINDING_ADDED) ? " " : "");
     say_names(w, d, HCI_FINDING_AMBIGUOUS, d->inertia_as_well ? ", " : " and ");
     hci_words_say(w, "%s",
                   d->sensors_as_well
