@@ -22,6 +22,7 @@ enum {
     BINS_PER_TURN = 4096, /* of a mean over turns */
     OF_PERIOD = 180,      /* of them, for each electrical period in it, that are left where they are joined */
     MOST_JOINED = 4,
+    OF_FASTEST = 64,    /* samples in which the speed is one */
     MOST_ALONG = 8,     /* samples along time that are joined, of runs that have more than so fine bins */
     MOST_OF_MANY = 5,   /* where all runs together have many samples */
     LEAST_TURNS = 3,    /* for such a mean */
@@ -332,13 +333,23 @@ static bool open_segment(const reduction *x, size_t first, size_t count, size_t 
     return segment_finish(x, &s);
 }
 
-/* Samples of an electrical period, where the shaft turns on; 0: it does not. */
+/* The angle that the shaft goes by from a sample to the next where it is fastest, by parts of so many
+ * samples. */
+static double fastest_step_rad(const double *theta, size_t count)
+{
+    double most = 0.0;
+    for (size_t k = 0; k + OF_FASTEST < count; k += OF_FASTEST)
+        most = fmax(most, fabs(theta[k + OF_FASTEST] - theta[k]) / OF_FASTEST);
+    return most;
+}
+
+/* Samples of an electrical period where it is shortest; 0: the shaft does not turn through one. */
 static double per_period(const reduction *x, size_t first, size_t count)
 {
-    const double *theta = x->run->theta_m_rad;
-    const double periods =
-        theta ? fabs(theta[first + count - 1] - theta[first]) * x->pole_pairs / (2.0 * HCI_PI) : 0.0;
-    return periods > 1.0 ? (double)count / periods : 0.0;
+    const double *theta = x->run->theta_m_rad, period_rad = 2.0 * HCI_PI / x->pole_pairs;
+    if (!theta || fabs(theta[first + count - 1] - theta[first]) < period_rad) return 0.0;
+    const double step_rad = fastest_step_rad(theta + first, count);
+    return step_rad > 0.0 ? period_rad / step_rad : 0.0;
 }
 
 /* How many samples that follow each other are joined to one, of a segment that would be cut, and that are

@@ -152,6 +152,30 @@ static void test_fine_samples_along_time_are_joined(void)
     }
 }
 
+/* A shaft that turns ten times as fast in one half: its samples are as fine as they are there. */
+static void test_the_fastest_part_says_how_many_are_joined(void)
+{
+    turn_steadily(2.0, 9000.0, 5.0);
+    for (size_t k = 0; k < run.count; ++k) {
+        const double way = (double)k / (double)run.count,
+                     turn = way < 0.5 ? 0.2 * way : 0.1 + 2.0 * (way - 0.5);
+        run.theta_m_rad[k] = 2.0 * TURN * turn;
+        rec_phases(-1.0, 3.0, P * run.theta_m_rad[k], run.i_A + 3 * k);
+    }
+    reduce();
+    for (size_t k = 0; k < binned.segment_count; ++k)
+        TEST_ASSERT_EQUAL_DOUBLE(8.0, binned.segment[k].joined);
+    turn_steadily(2.0, 9000.0, 5.0);
+    for (size_t k = 0; k < run.count; ++k) {
+        const double way = (double)k / (double)run.count;
+        run.theta_m_rad[k] = 2.0 * TURN * (way < 0.9 ? 0.05 * way : 0.045 + 10.0 * (way - 0.9));
+        rec_phases(-1.0, 3.0, P * run.theta_m_rad[k], run.i_A + 3 * k);
+    }
+    reduce();
+    for (size_t k = 0; k < binned.segment_count; ++k)
+        TEST_ASSERT_TRUE(binned.segment[k].joined <= 2.0);
+}
+
 /* Short recordings stay as they are, unless a turn has too few samples for the declared cogging torque, 18
  * periods of it: then what is between them stands in other turns. */
 static void test_sparse_turns_become_one_mean(void)
@@ -502,6 +526,7 @@ int main(void)
     RUN_TEST(test_turns_become_one_mean);
     RUN_TEST(test_a_part_of_a_turn_like_the_others);
     RUN_TEST(test_fine_samples_along_time_are_joined);
+    RUN_TEST(test_the_fastest_part_says_how_many_are_joined);
     RUN_TEST(test_sparse_turns_become_one_mean);
     RUN_TEST(test_many_short_runs_become_means);
     RUN_TEST(test_slow_noise_stays);
