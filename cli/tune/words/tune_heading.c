@@ -57,11 +57,9 @@ static void say_bound(const cli_tuning *t, double before_Nm, double after_Nm, ch
                  hci_ripple_bound_as_said(e->peak_to_peak_Nm));
 }
 
-/* Beside a model that does not explain what was recorded stands what was recorded. */
-static void say_doubtful(const cli_tuning *t, double before_Nm, char *text, size_t size)
+/* Why the table is doubtful, and what that means for what it leaves. */
+static void say_why_doubtful(const cli_tuning *t, char *text, size_t size)
 {
-    const cli_tune_ripple x = cli_tune_recorded_ripple(t);
-    char current[32] = "without current";
     if (t->diagnosis.means_alone)
         snprintf(
             text, size,
@@ -69,15 +67,22 @@ static void say_doubtful(const cli_tuning *t, double before_Nm, char *text, size
             "friction or the zero of the torque sensor is another one from run to run, so what the table "
             "leaves of the ripple has no bound");
     else
-        snprintf(
-            text, size,
-            "%s, so what the table leaves of the ripple is not to be relied on and may be more than a plain "
-            "sine leaves",
-            isfinite(t->solution.expected.unbelievable_order)
-                ? "A back-EMF that is not believable is in the model"
-            : t->diagnosis.verdict < HCI_DIAGNOSIS_PARTLY
-                ? "The search for what makes the ripple ended before all was compared"
-                : "The model does not explain the recordings");
+        snprintf(text, size,
+                 "%s, so what the table leaves of the ripple is not to be relied on and may be more than a "
+                 "plain sine leaves",
+                 isfinite(t->solution.expected.unbelievable_order)
+                     ? "A back-EMF that is not believable is in the model"
+                 : t->diagnosis.verdict < HCI_DIAGNOSIS_PARTLY
+                     ? "The search for what makes the ripple ended before all was compared"
+                     : "The model does not explain the recordings");
+}
+
+/* Beside a model that does not explain what was recorded stands what was recorded. */
+static void say_doubtful(const cli_tuning *t, double before_Nm, char *text, size_t size)
+{
+    const cli_tune_ripple x = cli_tune_recorded_ripple(t);
+    char current[32] = "without current";
+    say_why_doubtful(t, text, size);
     if (x.current_A > 0.0) snprintf(current, sizeof current, "at %.3g A", x.current_A);
     if (x.run < t->runs.count)
         snprintf(text + strlen(text), size - strlen(text),

@@ -7,6 +7,7 @@
 #include "cli/tune/tune_facts.h"
 #include "cli/tune/tune_known.h"
 #include "cli/tune/tune_suspect.h"
+#include "hci/host/machine/init.h"
 
 /* Of the torque per ampere, that sheets are off by and torque sensors, too, and that is not spoken of. */
 #define NEAR_SHEET 0.02
@@ -217,16 +218,11 @@ static void append_of_sign(cli_tuning *t)
         cli_tune_caveat(t, "The sign of i_q is not told, and with the other one the ripple doubles");
 }
 
-static int divisor(int a, int b)
-{
-    return b == 0 ? a : divisor(b, a % b);
-}
-
-/* Whether three equal phases can be wound on so many slots; where they are not said, they can. */
+/* Where slots are not said, any winding is one. */
 static bool is_wound(const cli_tuning *t)
 {
-    const int slots = (int)t->declared.slots;
-    return !(t->declared.slots >= 3.0) || slots % (3 * divisor(slots, t->declared.model.pole_pairs)) == 0;
+    return !(t->declared.slots >= 3.0) ||
+           hci_has_equal_phases((int)t->declared.slots, t->declared.model.pole_pairs);
 }
 
 /* Orders that slots and poles do not make, and those that they do. */

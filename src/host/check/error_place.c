@@ -446,6 +446,17 @@ static const char *unsigned_of(const check_data *data, const check_place *place)
     return text + (*text == '-');
 }
 
+/* "… --column 'iq=-COLUMN'", or without the sign that was given. */
+static void say_sign(const check_error *error, const check_data *data, const check_place *place,
+                     hci_check_finding *finding)
+{
+    const bool is_current = error->aspect == CHECK_OF_CURRENT_SIGN;
+    if (!is_current && !(error->where == CHECK_AT_TORQUE && error->times < 0.0)) return;
+    snprintf(finding->should_be, sizeof finding->should_be, "with the opposite sign: --column '%s=%s%.60s'%s",
+             given_name(data, place, is_current ? current_of(data, place) : "torque"), minus(data, place),
+             unsigned_of(data, place), is_current ? ", and so of each current" : "");
+}
+
 /* How to say it of a column whose name says nothing or something else. */
 static void say_column(const check_error *error, const check_data *data, const check_place *place,
                        hci_check_finding *finding)
@@ -469,16 +480,9 @@ static void say_column(const check_error *error, const check_data *data, const c
                  given_as(data, place));
     if (error->where == CHECK_AT_SPEED_M)
         snprintf(text, size, "%s: --column 'speed_e=%.60s'", error->should_be, given_as(data, place));
-    if (error->aspect == CHECK_OF_CURRENT_SIGN)
-        snprintf(text, size, "with the opposite sign: --column '%s=%s%.60s', and so of each current",
-                 given_name(data, place, current_of(data, place)), minus(data, place),
-                 unsigned_of(data, place));
     if (strcmp(error->name, "current_rms") == 0 || strcmp(error->name, "current_dq_rms") == 0)
         snprintf(text, size, "%.40s: --column '%s_Arms=%.40s', and so of each", error->should_be,
                  current_of(data, place), given_as(data, place));
-    if (error->where == CHECK_AT_TORQUE && error->times < 0.0)
-        snprintf(text, size, "with the opposite sign: --column '%s=%s%.60s'",
-                 given_name(data, place, "torque"), minus(data, place), unsigned_of(data, place));
 }
 
 void hci_check_error_locate(const check_error *error, const check_data *data, const check_interpretation *as,
@@ -502,6 +506,7 @@ void hci_check_error_locate(const check_error *error, const check_data *data, co
         move_unit(error, place, finding->should_be);
     else
         say_column(error, data, place, finding);
+    if (place->unit_line == 0) say_sign(error, data, place, finding);
     say_phases(error, data, finding);
     if (is_geared(error)) say_unit_of_gear(data, place, finding);
 }

@@ -4,6 +4,7 @@
 
 #include "hci/host/machine/init.h"
 #include "hci/math/harmonic.h"
+#include "host/numeric/divisor.h"
 
 #define SQRT2 1.4142135623730951
 #define SQRT3 1.7320508075688772
@@ -82,13 +83,12 @@ const char *hci_sheet_meaning(hci_sheet_reading reading)
 
 int hci_cogging_order(int slots, int pole_pairs)
 {
-    int a = slots, b = 2 * pole_pairs;
-    while (b != 0) {
-        const int rest = a % b;
-        a = b;
-        b = rest;
-    }
-    return 2 * (slots / a);
+    return 2 * (slots / (int)hci_common_divisor((size_t)slots, 2 * (size_t)pole_pairs));
+}
+
+bool hci_has_equal_phases(int slots, int pole_pairs)
+{
+    return slots % (3 * (int)hci_common_divisor((size_t)slots, (size_t)pole_pairs)) == 0;
 }
 
 static double emf(const hci_sheet *s)

@@ -913,11 +913,15 @@ static void test_degrees_in_one_recording(void)
 
 MISTAKE(exchanged, const double theta = x->theta; x->theta = x->torque_Nm + 0.1 * sin(7.0 * theta);
         x->torque_Nm = theta)
+MISTAKE(exchanged_wrapped, exchanged(x); x->torque_Nm -= 2.0 * REF_PI * floor(0.5 * x->torque_Nm / REF_PI))
 MISTAKE(of_no_unit, x->torque_Nm *= 133.0)
 
 static void test_angle_and_torque_exchanged(void)
 {
     check_three(8.0, (mistake *const[]){exchanged, exchanged, exchanged});
+    expect_first("columns_exchanged", "torque_Nm goes on evenly from row to row");
+    remove_files();
+    check_three(8.0, (mistake *const[]){exchanged_wrapped, exchanged_wrapped, exchanged_wrapped});
     expect_first("columns_exchanged", "torque_Nm goes on evenly from row to row");
     remove_files();
 }

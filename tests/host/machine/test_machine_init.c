@@ -155,6 +155,21 @@ static void test_cogging_orders(void)
     TEST_ASSERT_EQUAL_INT(6, hci_cogging_order(18, 12));
 }
 
+/* Coils of S slots have the electrical angles 2π p k/S: three phases are alike where turning these by a third
+ * of a turn leaves them the same. */
+static void test_three_equal_phases(void)
+{
+    for (int slots = 3; slots <= 60; ++slots)
+        for (int p = 1; p <= 30; ++p) {
+            bool has[180] = {false}, alike = true; /* in parts of 1/(3 slots) of a turn */
+            for (int k = 0; k < slots; ++k)
+                has[3 * p * k % (3 * slots)] = true;
+            for (int k = 0; k < 3 * slots; ++k)
+                alike = alike && has[k] == has[(k + slots) % (3 * slots)];
+            TEST_ASSERT_EQUAL(alike, hci_has_equal_phases(slots, p));
+        }
+}
+
 /* ---- do the ratings agree? ---- */
 
 static void assert_remark(const hci_sheet *sheet, const char *words)
@@ -412,6 +427,7 @@ int main(void)
     RUN_TEST(test_hobby_motors);
     RUN_TEST(test_servo_motors);
     RUN_TEST(test_cogging_orders);
+    RUN_TEST(test_three_equal_phases);
     RUN_TEST(test_remarks);
     RUN_TEST(test_the_least_reads_back);
     RUN_TEST(test_everything_reads_back);

@@ -208,15 +208,15 @@ typedef struct {
     const char *slip;  /* what a wrong sign, direction, zero or number of pole pairs shows, and no effect was
                         * made of, in words; NULL: nothing such */
     bool not_searched; /* because of that slip no effect was looked for */
-    bool magnetic_only; /* direct current alone: beside iron nothing else was looked for */
-    const char *standing_taken,
-        *standing_instead; /* of the zero of the torque sensor, friction and a reluctance
-                            * torque the one that is in and another that explains the
-                            * means as well, in words; NULL: they are told. Static */
-    double standing_share; /* by which the torque per ampere is larger with the other one */
-    bool sensors_as_well;  /* current sensors that read each other's current look the same as an ambiguous one
-                            */
-    bool inertia_as_well;  /* free shafts alone: a wrong inertia looks the same as an ambiguous effect */
+    bool magnetic_only;           /* direct current alone: beside iron nothing else was looked for */
+    const char *standing_taken;   /* of the zero of the torque sensor, friction, a reluctance torque and the
+                                   * torque   per ampere the one that is in where another explains the means as
+                                   * well, in   words; NULL: they are told. Static */
+    const char *standing_instead; /* that other one */
+    double standing_share;        /* by which the torque per ampere is larger with the other one */
+    bool sensors_as_well; /* current sensors that read each other's current look the same as an ambiguous one
+                           */
+    bool inertia_as_well; /* free shafts alone: a wrong inertia looks the same as an ambiguous effect */
     double open_voltage_off; /* share by which voltages without a current differ from the declared back-EMF;
                               * 0: none were recorded */
     bool against_voltages; /* the torques ask for another torque per ampere, which voltages that were recorded

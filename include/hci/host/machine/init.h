@@ -81,6 +81,9 @@ double hci_sheet_current_A(const hci_sheet *sheet);
 /* First electrical order of the cogging torque, lcm(slots, 2p)/p; slots and pole_pairs from 1. */
 int hci_cogging_order(int slots, int pole_pairs);
 
+/* Whether three equal phases can be wound on so many slots; both from 1. */
+bool hci_has_equal_phases(int slots, int pole_pairs);
+
 /* Ratings that do not agree with the strength of the magnets, and by which convention they would: rated
  * torque against 3/2 k_e × rated current, and the back-EMF at rated speed against the dc link. "" if there is
  * nothing to say. */

@@ -4,6 +4,7 @@
  * Low multiples of each are likely, high ones are not. */
 #include <math.h>
 
+#include "hci/host/machine/init.h"
 #include "host/check/relations/pole_pairs.h"
 #include "host/check/relations/relations.h"
 
@@ -22,11 +23,6 @@ enum { MOST_SLOTS = 108, MOST_GRADE = 12 };
 /* What a stator costs that is not declared: one of so many. */
 #define STATORS 20.0
 
-static int divisor(int a, int b)
-{
-    return b == 0 ? a : divisor(b, a % b);
-}
-
 /* The h-th multiple has 6/(π h)² of its family. */
 static double member(int line, int base, double share)
 {
@@ -34,16 +30,11 @@ static double member(int line, int base, double share)
     return line % base == 0 && h <= MOST_GRADE ? share * 6.0 / (HCI_PI * HCI_PI * h * h) : 0.0;
 }
 
-static bool is_balanced(int slots, int pairs)
-{
-    return slots % (3 * divisor(slots, pairs)) == 0;
-}
-
 /* ln of the likelihood of the lines. */
 static double of_layout(const check_run *r, int slots, int pairs)
 {
-    const int cogging = slots / divisor(slots, 2 * pairs) * 2 * pairs;
-    double sum = is_balanced(slots, pairs) ? 0.0 : -UNBALANCED;
+    const int cogging = hci_cogging_order(slots, pairs) * pairs;
+    double sum = hci_has_equal_phases(slots, pairs) ? 0.0 : -UNBALANCED;
     for (int k = 0; k < r->lines; ++k)
         sum += log(member(r->line[k], cogging, OF_COGGING) + member(r->line[k], slots, OF_SLOTS) +
                    member(r->line[k], 2 * pairs, OF_POLES) + member(r->line[k], pairs, OF_PAIRS) +
@@ -56,7 +47,7 @@ static double of_pairs(const check_run *r, double slots, int pairs)
     double best = -HUGE_VAL;
     if (slots >= 3.0) return of_layout(r, (int)slots, pairs);
     for (int s = 3; s <= MOST_SLOTS; s += 3)
-        if (is_balanced(s, pairs)) best = fmax(best, of_layout(r, s, pairs));
+        if (hci_has_equal_phases(s, pairs)) best = fmax(best, of_layout(r, s, pairs));
     return best - log(STATORS);
 }
 

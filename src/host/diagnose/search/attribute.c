@@ -106,19 +106,9 @@ static hci_status rival_mark(hci_search *s, hci_attribution *a, size_t type, con
     return status;
 }
 
-/* Whether a type would drive in that place where it has to brake. */
-static hci_status drives(hci_search *s, const hci_verdict *v, bool *driving, hci_note *note)
-{
-    const hci_effect_type *type = NULL;
-    *driving = false;
-    if (!v->type->coulomb_Nm) return HCI_OK;
-    const hci_status status = hci_brakes_find_driving(s->regression, &v->alternative.candidates, &type, note);
-    *driving = type == v->type;
-    return status;
-}
-
-/* The same, unless the recordings contradict it in that place: means of a few runs may look alike in sum
- * where one run alone, such as one without a current, tells the two apart. */
+/* The same, unless the recordings contradict it in that place, where what brakes would drive as well: means
+ * of a few runs may look alike in sum where one run alone, such as one without a current, tells the two
+ * apart. */
 static hci_status rival_mark_unless_worse(hci_search *s, hci_attribution *a, size_t type,
                                           const hci_effect_type *as, hci_note *note)
 {
@@ -126,7 +116,8 @@ static hci_status rival_mark_unless_worse(hci_search *s, hci_attribution *a, siz
     const bool was_ambiguous = other->ambiguous;
     bool driving = false;
     hci_status status = rival_mark(s, a, type, as, note);
-    if (!status && v->alternative.candidates.candidate) status = drives(s, v, &driving, note);
+    if (!status && v->alternative.candidates.candidate)
+        status = hci_brakes_drive(s->regression, &v->alternative.candidates, v->type, &driving, note);
     if (status || !v->alternative.candidates.candidate ||
         (!driving && v->alternative.fit.score < a->model.fit.score + HCI_DECISIVE))
         return status;

@@ -97,3 +97,13 @@ hci_status hci_brakes_find_driving(const hci_regression *e, const hci_candidates
     hci_model_release(&model);
     return HCI_OK;
 }
+
+hci_status hci_brakes_drive(const hci_regression *e, const hci_candidates *candidates,
+                            const hci_effect_type *type, bool *drives, hci_note *note)
+{
+    const hci_effect_type *driving = NULL;
+    hci_status status = HCI_OK;
+    if (is_brake(type)) status = hci_brakes_find_driving(e, candidates, &driving, note);
+    *drives = driving && driving == type;
+    return status;
+}

@@ -13,6 +13,10 @@
 hci_status hci_brakes_find_driving(const hci_regression *regression, const hci_candidates *candidates,
                                    const hci_effect_type **type, hci_note *note);
 
+/* Whether that is this type. HCI_ERROR_MEMORY. */
+hci_status hci_brakes_drive(const hci_regression *regression, const hci_candidates *candidates,
+                            const hci_effect_type *type, bool *drives, hci_note *note);
+
 /* Whether the last term of a candidate is a further power of the speed in the law of a brake, which may go
  * alone. */
 bool hci_brakes_has_further_power(const hci_candidate *candidate);

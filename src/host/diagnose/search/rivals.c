@@ -264,23 +264,12 @@ static bool is_same_ripple(const hci_fitted_model *model, const hci_fitted_model
            hci_candidates_terms_in(&rival->candidates) <= hci_candidates_terms_in(&model->candidates) + 1;
 }
 
-/* Whether a rival would drive where it has to brake: it is none then. natural: in and out. */
-static hci_status natural_ask(const rivalry *r, const hci_fitted_model *rival, size_t with, bool *natural,
-                              hci_note *note)
-{
-    const hci_effect_type *driving = NULL;
-    if (!*natural || !hci_candidate_type(with)->coulomb_Nm) return HCI_OK;
-    const hci_status status =
-        hci_brakes_find_driving(r->search->regression, &rival->candidates, &driving, note);
-    *natural = driving != hci_candidate_type(with);
-    return status;
-}
-
 hci_status hci_search_rivals(hci_search *s, const hci_effect_type *type, hci_attribution *a, hci_note *note)
 {
     rivalry r;
     hci_fitted_model rival = {0};
     size_t with = 0;
+    bool drives = false;
     hci_status status = rivalry_start(s, &a->model, type, &r, note);
     if (!status) plausible_mark(&r, a);
     r.is_asked = asks_own;
@@ -292,7 +281,10 @@ hci_status hci_search_rivals(hci_search *s, const hci_effect_type *type, hci_att
         bool equal = rival.fit.score < a->model.fit.score + EQUAL ||
                      is_same_ripple(&a->model, &rival, type, hci_candidate_type(with));
         if (equal) status = is_as_good(&r, &rival, &equal, note);
-        if (!status) status = natural_ask(&r, &rival, with, &equal, note);
+        if (!status)
+            status =
+                hci_brakes_drive(s->regression, &rival.candidates, hci_candidate_type(with), &drives, note);
+        equal = equal && !drives;
         a->unsettled = a->unsettled || (equal && a->model.fit.score - rival.fit.score >
                                                      margin_of(type, hci_candidate_type(with)));
         if (!status && equal) rival_mark(&r, with, &rival, a);

@@ -187,10 +187,10 @@ static hci_status unpredicted_leave(hci_search *s, hci_candidates *model, hci_no
  * back-EMF, order 0 of an inductance, friction, the zero of a torque sensor. */
 static bool makes_mean(const hci_candidate *x)
 {
-    const unsigned traits = x->type->parameter[x->term[0].parameter].traits;
+    size_t zero;
     bool all = x->type->propose_coenergy != NULL;
     if (x->type->coulomb_Nm || x->type->drag_Nm) return true;
-    if (traits == (HCI_PARAMETER_OF_TRANSDUCER | HCI_PARAMETER_LINEAR)) return true;
+    if (x->type == hci_sensor_zero(&zero) && x->term[0].parameter == zero) return true;
     for (size_t j = 0; j < x->count; ++j)
         all = all && x->term[j].order <= 1.0 + HCI_ORDER_TOLERANCE;
     return all;
@@ -531,8 +531,7 @@ static hci_status one_load_take(hci_search *s, hci_fitted_model *model, hci_note
 }
 
 /* Where settling took effects out for the sake of means that nothing explains, those that describe the ripple
- * stay; not of another machine. before: the model that was
- * settled; left empty. */
+ * stay; not of another machine. before: the model that was settled; what is left in it is of no use. */
 static hci_status ripple_stays(hci_search *s, hci_attribution *a, hci_fitted_model *before, hci_note *note)
 {
     bool known = false, about = false;
