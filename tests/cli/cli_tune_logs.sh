@@ -127,6 +127,7 @@ check "a shaft without friction is accused" [ "$(grep -c 'works against' ideal/s
 # ---- an offset of the angle, with which the logs were read, is in the table
 
 run 0 tune smooth.csv --pole-pairs 7 --kv 120 --angle-offset -31 -o offset
+says '^  - The table is over the angle of the logs with --angle-offset -31: .* add -31 electrical degrees to it'
 check "the header has no offset" grep -q 'theta = pole pairs \* mechanical angle + (-31) degrees electrical' offset/table/tuned.h
 check "commands.sh has no offset for emit" grep -q 'hci-solve emit .* --angle-offset -31' offset/commands.sh
 check "an offset nobody gave" [ "$(grep -c 'degrees electrical' smooth/table/tuned.h)" -eq 0 ]
