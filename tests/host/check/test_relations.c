@@ -238,6 +238,19 @@ static void test_orders_of_the_recordings(void)
            {"voltage_order", "phases_swapped", -1.0});
 }
 
+/* An order that another unit of the angle makes is of no gear; another one that is not whole is. */
+static void test_a_unit_of_the_angle_is_no_gear(void)
+{
+    static const double UNIT[] = {REF_PI / 180.0, 180.0 / REF_PI, 2.0 * REF_PI, 1.3};
+    record_load();
+    data.value[CHECK_pole_pairs] = 2.0;
+    for (int k = 0; k < 4; ++k) {
+        data.run[0].current_order = 2.0 * UNIT[k];
+        TEST_ASSERT_TRUE(hci_check_pole_pairs_count(&data));
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, k == 3 ? 1.3 : 0.0, data.run[0].gear);
+    }
+}
+
 static void test_speeds_of_the_recordings(void)
 {
     record_load();
@@ -452,6 +465,7 @@ int main(void)
     RUN_TEST(test_sizes);
     RUN_TEST(test_every_kind_of_back_emf);
     RUN_TEST(test_orders_of_the_recordings);
+    RUN_TEST(test_a_unit_of_the_angle_is_no_gear);
     RUN_TEST(test_speeds_of_the_recordings);
     RUN_TEST(test_without_an_angle_the_frequency_tells);
     RUN_TEST(test_back_emf_of_the_recordings);
