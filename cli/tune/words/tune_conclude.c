@@ -61,7 +61,8 @@ static bool is_good(const cli_tuning *t)
 {
     return t->is_emitted && !t->diagnosed && t->solution.within_limits && !cli_tune_is_missed(t) &&
            !cli_tune_is_of_no_use(t) && !cli_tune_is_far_beyond(t) && !cli_tune_is_never_seen(t) &&
-           !cli_tune_misses_torque(t) && !cli_tune_promises_nothing(t) && !cli_tune_is_boundless(t) &&
+           !t->diagnosis.means_alone && !cli_tune_misses_torque(t) && !cli_tune_promises_nothing(t) &&
+           !cli_tune_is_boundless(t) &&
            !(t->is_solved && hci_expected_ripple_is_doubtful(&t->solution.expected));
 }
 

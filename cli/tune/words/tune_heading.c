@@ -109,6 +109,19 @@ static void say_of_model(const cli_tuning *t, double before_Nm, double after_Nm,
              becomes(before_Nm, after_Nm), after_Nm, known, not_known(t));
 }
 
+/* The ripple is explained, and the mean torque of each recording is not. */
+static void append_means(const hci_expected_ripple *e, char *text, size_t size)
+{
+    snprintf(text + strlen(text), size - strlen(text),
+             "; the mean torque of each recording is not explained, as where friction or the zero of the "
+             "torque sensor is another one from run to run");
+    if (e->state == HCI_RIPPLE_KNOWN && e->mean_error_Nm >= fabs(e->mean_Nm))
+        snprintf(text + strlen(text), size - strlen(text), ", and that of the table is not known");
+    else if (e->state == HCI_RIPPLE_KNOWN && isfinite(e->mean_error_Nm))
+        snprintf(text + strlen(text), size - strlen(text), ", and that of the table may be %.2g N·m off",
+                 hci_ripple_bound_as_said(e->mean_error_Nm));
+}
+
 static void say_fall(cli_tuning *t, char *text, size_t size)
 {
     const hci_expected_ripple *e = &t->solution.expected;
@@ -131,6 +144,7 @@ static void say_fall(cli_tuning *t, char *text, size_t size)
         say_bound(t, before_Nm, after_Nm, text, size);
     else
         say_of_model(t, before_Nm, after_Nm, text, size);
+    if (e->origin.left_means_Nm > 0.0) append_means(e, text, size);
 }
 
 /* What is not in the logs goes before what is. */

@@ -137,13 +137,39 @@ static bool any_turns(const hci_dataset *b, const hci_runs *runs)
  * written down. */
 static hci_alternatives alternatives_of(const hci_attribution *a)
 {
-    hci_alternatives x = {{NULL}, 0};
+    hci_alternatives x = {.count = 0};
     for (size_t r = 0; r < a->types && x.count < HCI_MOST_ALTERNATIVES; ++r) {
         const hci_verdict *v = &a->verdict[r];
         if (v->ambiguous && v->alternative.candidates.candidate)
             x.machine[x.count++] = &v->alternative.candidates;
     }
     return x;
+}
+
+/* Of the largest mean torque of a run, that is left of the mean of one. */
+static double means_left(const hci_diagnosis *d)
+{
+    double left_Nm = 0.0, most_Nm = 0.0;
+    for (size_t r = 0; r < d->runs; ++r) {
+        if (d->run[r].role != HCI_ROLE_FIT) continue;
+        left_Nm = fmax(left_Nm, fabs(d->run[r].error_mean_after_Nm));
+        most_Nm = fmax(most_Nm, fabs(d->run[r].mean_torque_Nm));
+    }
+    return most_Nm > 0.0 ? left_Nm / most_Nm : 0.0;
+}
+
+/* What the recordings leave open. Of a model that had no rival, and beside something unknown, nothing is
+ * stated; where nothing but means is unknown, all that the ripple tells. */
+static hci_status left_open(hci_dataset *b, const hci_attribution *a, hci_diagnosis *d, hci_note *note)
+{
+    hci_alternatives others = alternatives_of(a);
+    if (a->ended != HCI_WORK_COMPLETE || (a->unknown && (!a->means_alone || d->contradicted))) return HCI_OK;
+    others.constant_share = a->unknown ? means_left(d) : 0.0;
+    b->regression.free_means = a->unknown;
+    const hci_status status =
+        hci_uncertainty_find(&b->regression, &a->model.candidates, &others, &d->uncertainty, note);
+    b->regression.free_means = false;
+    return status;
 }
 
 /* What no effect explains is described, and then leaves: it never gets into a machine. */
@@ -164,15 +190,13 @@ static hci_status fill(hci_dataset *b, const hci_runs *runs, hci_attribution *a,
     hci_candidates_remove_type(&a->model.candidates, &hci_empirical_type);
     hci_status status = hci_standing_torque_judge(&b->regression, a, note);
     if (status) return status;
-    const hci_alternatives others = alternatives_of(a);
     status = effects_fill(&b->regression, &a->model.candidates, d, note);
-    if (!status && !a->unknown && a->ended == HCI_WORK_COMPLETE) /* of a model that had no rival: no bound */
-        status = hci_uncertainty_find(&b->regression, &a->model.candidates, &others, &d->uncertainty, note);
+    if (!status) status = hci_run_errors_fill(b, runs, a->model.fit.parameters, d, note);
+    if (!status) status = left_open(b, a, d, note);
     if (status == HCI_ERROR_STOPPED) { /* all else is known */
         d->search = a->ended = HCI_WORK_INTERRUPTED;
         status = HCI_OK;
     }
-    if (!status) status = hci_run_errors_fill(b, runs, a->model.fit.parameters, d, note);
     if (!status) hci_findings_fill(a, d);
     d->wanders = d->wanders && is_unrepeated(d) && any_turns(b, runs);
     return status;
@@ -639,6 +663,18 @@ static hci_status left_orders_find(const hci_diagnosis *d, double *left_Nm, hci_
     return HCI_OK;
 }
 
+/* Of the runs that were fitted, rms. */
+static double means_left_Nm(const hci_diagnosis *d)
+{
+    double sum = 0.0, count = 0.0;
+    for (size_t r = 0; r < d->runs; ++r) {
+        if (d->run[r].role != HCI_ROLE_FIT || !isfinite(d->run[r].error_mean_after_Nm)) continue;
+        sum += pow(d->run[r].error_mean_after_Nm, 2.0);
+        count += 1.0;
+    }
+    return count > 0.0 ? sqrt(sum / count) : 0.0;
+}
+
 /* Goes with the corrected machine, whether or not anything is stated of it. */
 static hci_status origin_fill(const task *t, hci_diagnosis *d, hci_note *note)
 {
@@ -646,6 +682,7 @@ static hci_status origin_fill(const task *t, hci_diagnosis *d, hci_note *note)
     snprintf(origin->verdict, sizeof origin->verdict, "%s", hci_diagnosis_verdict_name(d->verdict));
     snprintf(origin->search, sizeof origin->search, "%s", hci_diagnosis_search_name(d->search));
     origin->unexplained_Nm = unexplained_ripple_Nm(d);
+    if (d->means_alone && d->uncertainty.machines > 0) origin->left_means_Nm = means_left_Nm(d);
     origin->constant_is_declared = d->held_constant_Nm_per_A > 0.0;
     origin->turning_load_Nm = hci_turning_load_Nm(&t->machine->model, &d->effects.list, t->runs);
     origin->sensor_zero_Nm =

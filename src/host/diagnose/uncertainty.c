@@ -10,6 +10,7 @@
 #include "host/diagnose/fit/run_parts.h"
 #include "host/diagnose/sidebands.h"
 #include "host/diagnose/width_trials.h"
+#include "host/machine/torque_constant.h"
 #include "host/recording/rotor_frame.h"
 
 enum { MACHINES = 200, SEED = 1 };
@@ -295,6 +296,34 @@ static hci_status with_alternatives(const hci_candidates *fitted, const hci_alte
     return status;
 }
 
+static hci_candidate constant_term(void)
+{
+    hci_candidate x = {.count = 1, .in = true};
+    for (size_t t = 0; t < hci_candidate_types() && !x.type; ++t)
+        for (size_t k = 0; k < hci_candidate_type(t)->parameter_count && !x.type; ++k)
+            if (hci_candidate_type(t)->parameter[k].traits & HCI_PARAMETER_WITH_LOAD) {
+                x.type = hci_candidate_type(t);
+                x.term[0] = (hci_effect_term){.parameter = k, .order = 1.0, .value = 1.0};
+            }
+    return x;
+}
+
+/* The fundamental of the back-EMF by which the torque per ampere differs. */
+static hci_status with_constant(const hci_regression *e, double share, hci_candidates *all, hci_note *note)
+{
+    hci_candidate x = constant_term();
+    hci_model model;
+    if (hci_candidates_find_in(all, &x)) return HCI_OK;
+    hci_candidates one = {.candidate = &x, .count = 1};
+    hci_status status = hci_model_make(e->declared, &one, false, &model, note);
+    if (status) return status;
+    const double constant = hci_torque_constant(e->machine, e->declared);
+    x.deviation = share * fabs(constant / (hci_torque_constant(e->machine, &model.list) - constant));
+    hci_model_release(&model);
+    x.term[0].value = 0.0;
+    return hci_candidates_add(all, &x, note);
+}
+
 /* The value of a term in a model; NAN: it does not have it. */
 static double value_in(const hci_candidates *model, const hci_candidate *x, size_t j)
 {
@@ -373,6 +402,8 @@ hci_status hci_uncertainty_find(hci_regression *regression, const hci_candidates
     hci_candidates all = {0};
     memset(uncertainty, 0, sizeof *uncertainty);
     hci_status status = with_alternatives(fitted, alternatives, &all, note);
+    if (!status && alternatives->constant_share > 0.0)
+        status = with_constant(regression, alternatives->constant_share, &all, note);
     if (!status) status = hci_sidebands_add(regression->machine, &all, note);
     if (!status) status = hci_allowed_terms_make(f.regression, &all, &f.terms, note);
     if (!status) status = hci_model_make(regression->declared, fitted, false, &f.found, note);

@@ -16,7 +16,9 @@ enum { HCI_MOST_ALTERNATIVES = 8 };
 /* Other machines that explain the recordings as well, by other effects: each is the terms that are in. */
 typedef struct {
     const hci_candidates *machine[HCI_MOST_ALTERNATIVES];
-    size_t count; /* 0: none */
+    size_t count;          /* 0: none */
+    double constant_share; /* standard deviation of the torque per ampere, as a share of it, where the means
+                            * of the recordings do not tell it; 0: they do */
 } hci_alternatives;
 
 /* fitted: the terms of the model that are in, with their values; regression: with the noise that the model

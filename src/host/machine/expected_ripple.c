@@ -283,7 +283,7 @@ static hci_expected_ripple nothing(hci_ripple_state state)
                                  NAN,
                                  false,
                                  0,
-                                 {"", "", NAN, false, 0.0, 0.0, 0.0},
+                                 {"", "", NAN, false, 0.0, 0.0, 0.0, 0.0},
                                  NAN,
                                  NAN,
                                  NAN,

@@ -187,6 +187,11 @@ static void say_origin(const hci_words *w, const hci_expected_ripple *e)
                           number(e->origin.unexplained_Nm, false, Nm));
         hci_words_say(w, ".");
     }
+    if (!hci_machine_origin_is_doubtful(&e->origin) && e->origin.left_means_Nm > 0.0)
+        hci_words_say(w,
+                      " The ripple of the recordings is explained, and of their mean torques %s N·m rms are "
+                      "not: the mean is known no better than that.",
+                      number(e->origin.left_means_Nm, false, Nm));
     if (isfinite(e->unbelievable_order))
         hci_words_say(w,
                       " Its back-EMF of order %.4g is %.2g %% of the fundamental, which is not believable: a "

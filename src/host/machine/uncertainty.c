@@ -69,8 +69,9 @@ static bool is_of_no_torque(const hci_machine_origin *origin)
 bool hci_machine_origin_is_doubtful(const hci_machine_origin *origin)
 {
     if (is_of_no_torque(origin)) return false;
-    return strcmp(origin->verdict, "partly explained") == 0 || strcmp(origin->verdict, "unknown") == 0 ||
-           (origin->search[0] && strcmp(origin->search, "complete") != 0);
+    if (origin->search[0] && strcmp(origin->search, "complete") != 0) return true;
+    return !(origin->left_means_Nm > 0.0) &&
+           (strcmp(origin->verdict, "partly explained") == 0 || strcmp(origin->verdict, "unknown") == 0);
 }
 
 /* ---- what was measured ---- */

@@ -167,12 +167,14 @@ static hci_status word_of(const hci_csv *csv, size_t row, const char *const *wor
 }
 
 /* Torques in N·m that stand in the file where they are above 0. */
-enum { OPTIONAL = 3 };
-static const char *const OPTIONAL_NAME[OPTIONAL] = {"turning_load", "sensor_zero", "left_orders"};
+enum { OPTIONAL = 4 };
+static const char *const OPTIONAL_NAME[OPTIONAL] = {"turning_load", "sensor_zero", "left_orders",
+                                                    "left_means"};
 
 static double *optional_of(hci_machine_origin *origin, size_t k)
 {
-    double *const all[OPTIONAL] = {&origin->turning_load_Nm, &origin->sensor_zero_Nm, &origin->left_Nm};
+    double *const all[OPTIONAL] = {&origin->turning_load_Nm, &origin->sensor_zero_Nm, &origin->left_Nm,
+                                   &origin->left_means_Nm};
     return all[k];
 }
 
@@ -196,8 +198,8 @@ static hci_status origin_row(const hci_csv *csv, size_t row, hci_machine_origin 
         if (strcmp(name, OPTIONAL_NAME[k]) == 0)
             return cell_read(csv, "value", row, optional_of(origin, k), note);
     return hci_csv_error(csv, "name", row, note,
-                         "verdict, search, unexplained_ripple, torque_constant, turning_load, sensor_zero or "
-                         "left_orders",
+                         "verdict, search, unexplained_ripple, torque_constant, turning_load, sensor_zero, "
+                         "left_orders or left_means",
                          "let diagnose write the file again, or remove it");
 }
 
@@ -216,7 +218,7 @@ static hci_status origin_read(const char *path, hci_machine_origin *origin, hci_
 hci_status hci_uncertainty_read_machine(const char *folder, hci_uncertainty *u, hci_note *note)
 {
     char uncertainty[PATH_SIZE], measured[PATH_SIZE], diagnosis[PATH_SIZE];
-    hci_machine_origin origin = {"", "", NAN, false, 0.0, 0.0, 0.0};
+    hci_machine_origin origin = {"", "", NAN, false, 0.0, 0.0, 0.0, 0.0};
     memset(u, 0, sizeof *u);
     hci_status status = hci_machine_path(uncertainty, sizeof uncertainty, folder, UNCERTAINTY, note);
     if (!status) status = hci_machine_path(measured, sizeof measured, folder, MEASURED, note);

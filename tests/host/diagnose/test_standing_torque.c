@@ -88,7 +88,24 @@ static void test_a_zero_is_no_friction_that_drives(void)
     TEST_ASSERT_TRUE(diagnosis.uncertainty.machines > 0);
 }
 
-/* A zero of the sensor that is another one in each recording. */
+/* Deviation of the back-EMF's order 1 over the machines that are allowed, as a share of the declared one; 0:
+ * it is the same in all. */
+static double constant_spread(const hci_uncertainty *u)
+{
+    double square = 0.0;
+    size_t row = 0;
+    for (size_t k = 0; k < u->effects.list.count; ++k)
+        for (size_t j = 0; j < u->effects.list.effect[k].count; ++j, ++row) {
+            const hci_effect *x = &u->effects.list.effect[k];
+            if (strcmp(x->type->name, "back_emf") != 0 || x->term[j].order != 1.0) continue;
+            for (size_t m = 0; m < u->machines; ++m)
+                square += pow(u->departure[row * u->machines + m], 2.0) / (double)u->machines;
+        }
+    return sqrt(square) / K_NM_PER_A;
+}
+
+/* A zero of the sensor that is another one in each recording. The bound has the torque per ampere as open as
+ * the means leave it: the largest of the zeros of the largest mean. */
 static void test_the_ripple_stays_beside_means_that_nothing_explains(void)
 {
     static const double ZERO_Nm[] = {0.12, -0.1, 0.05, -0.16};
@@ -100,6 +117,11 @@ static void test_the_ripple_stays_beside_means_that_nothing_explains(void)
     TEST_ASSERT_EQUAL(HCI_FINDING_ADDED, found("cogging")->verdict);
     TEST_ASSERT_EQUAL(HCI_FINDING_ADDED, found("back_emf")->verdict);
     TEST_ASSERT_TRUE(diagnosis.means_open && diagnosis.means_alone);
+    TEST_ASSERT_TRUE(diagnosis.uncertainty.machines > 0);
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.1145, diagnosis.uncertainty.origin.left_means_Nm);
+    TEST_ASSERT_FALSE(hci_machine_origin_is_doubtful(&diagnosis.uncertainty.origin));
+    const double share = 0.16 / (1.5 * K_NM_PER_A * 8.0 + 0.12);
+    TEST_ASSERT_DOUBLE_WITHIN(0.2 * share, share, constant_spread(&diagnosis.uncertainty));
 }
 
 /* Two opposite loads without an idle turn: cogging torque, which keeps its sign, is no reluctance torque that

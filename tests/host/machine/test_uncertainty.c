@@ -488,6 +488,26 @@ static void test_turning_load(void)
     check_file("diagnosis.csv", TURNING);
 }
 
+/* Where the means of the recordings alone are not explained, the ripple is, and is said to be. */
+static void test_left_means(void)
+{
+    static const char MEANS[] = "name,value,unit\nverdict,partly explained,\nsearch,complete,\n"
+                                "unexplained_ripple,0,Nm\nleft_means,0.3,Nm\n";
+    char words[1024];
+    const hci_ripple_path path = path_of(0.0, 1.0);
+    files_write(files_path("diagnosis.csv"), MEANS);
+    allow_cogging(0.01);
+    const hci_expected_ripple e = expect(&path);
+    TEST_ASSERT_FALSE(hci_expected_ripple_is_doubtful(&e));
+    TEST_ASSERT_EQUAL_INT(HCI_RIPPLE_KNOWN, e.state);
+    hci_expected_ripple_words(&e, words, sizeof words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "of their mean torques 0.3 N\xC2\xB7m rms are not"), words);
+    TEST_ASSERT_NULL_MESSAGE(strstr(words, "the model alone"), words);
+    files_remove(files_path("diagnosis.csv"));
+    write_all();
+    check_file("diagnosis.csv", MEANS);
+}
+
 /* What no machine that the recordings allow has is in the bound, and said: an order that may be of the
  * current sensors, of which the table adds both sides where it is not there, and what the model leaves. */
 static void test_untold(void)
@@ -645,6 +665,7 @@ int main(void)
     RUN_TEST(test_files_that_are_wrong);
     RUN_TEST(test_origin_is_written_again);
     RUN_TEST(test_turning_load);
+    RUN_TEST(test_left_means);
     RUN_TEST(test_untold);
     RUN_TEST(test_origin_that_is_wrong);
     RUN_TEST(test_belongs_to_one_list_of_effects);

@@ -37,10 +37,12 @@ typedef struct {
                                 * sensors     that are off make as well as the motor, likewise; 0: none */
     double left_Nm; /* ripple, peak to peak, the median over the recordings, of orders that stand out of their
                      * noise and that the model does not have; 0: none */
+    double left_means_Nm; /* rms of what is left of the means of the recordings, where nothing else is
+                           * unknown; 0: more is, or nothing */
 } hci_machine_origin;
 
-/* Whether it has not explained its recordings: partly explained, unknown, or a search that ended early. Not
- * where none of them had a torque. */
+/* Whether it has not explained the ripple of its recordings: partly explained, unknown, or a search that
+ * ended early. Not where none of them had a torque, nor where their means alone are unknown. */
 bool hci_machine_origin_is_doubtful(const hci_machine_origin *origin);
 
 /* Machines that the recordings allow as well as the one that is written down. Start with {0}: nothing is
