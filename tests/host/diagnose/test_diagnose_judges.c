@@ -1,5 +1,9 @@
 /* What a diagnosis concludes of figures by hand, on both sides of each bound. */
+#include "host/diagnose/conclude.c"
 #include "host/diagnose/diagnose.c"
+#include "host/diagnose/fill_diagnosis.c"
+#include "host/diagnose/origin.c"
+#include "host/diagnose/left_open.c"
 
 #include "unity.h"
 
@@ -107,15 +111,15 @@ static void test_what_does_not_repeat(void)
 
 static void test_whether_anything_turns(void)
 {
-    TEST_ASSERT_FALSE(any_turns(&b, &runs));
+    TEST_ASSERT_FALSE(hci_any_turns(&b, &runs));
     statistics[1].turns = 0.0051; /* of four pole pairs */
-    TEST_ASSERT_TRUE(any_turns(&b, &runs));
+    TEST_ASSERT_TRUE(hci_any_turns(&b, &runs));
     statistics[1].turns = 0.0049;
-    TEST_ASSERT_FALSE(any_turns(&b, &runs));
+    TEST_ASSERT_FALSE(hci_any_turns(&b, &runs));
     run[2].only_mean = true;
-    TEST_ASSERT_TRUE(any_turns(&b, &runs));
+    TEST_ASSERT_TRUE(hci_any_turns(&b, &runs));
     fitted[2] = false;
-    TEST_ASSERT_FALSE(any_turns(&b, &runs));
+    TEST_ASSERT_FALSE(hci_any_turns(&b, &runs));
 }
 
 /* ---- what is in ---- */

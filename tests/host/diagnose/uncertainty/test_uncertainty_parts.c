@@ -1,5 +1,5 @@
 /* What recordings leave open, by parts: turns, misfits of runs, values of alternatives. */
-#include "host/diagnose/uncertainty.c"
+#include "host/diagnose/uncertainty/uncertainty.c"
 
 #include "support/recording.h"
 #include "unity.h"
@@ -47,7 +47,7 @@ void setUp(void)
     regression = (hci_regression){.machine = &MACHINE, .samples = &samples, .runs = run, .use = use};
     fitted = (hci_candidates){.candidate = list, .count = 0};
     alternative = (hci_candidates){.candidate = other, .count = 0};
-    alternatives = (hci_alternatives){{&alternative}, 1};
+    alternatives = (hci_alternatives){.machine = {&alternative}, .count = 1};
     for (size_t k = 0; k < PARTS; ++k)
         of_run[k] = OF_RUN[k], group[k] = k, left[k].misfit = 1.0 + (double)k;
     f.regression = &regression, f.fitted = &fitted, f.alternatives = &alternatives;

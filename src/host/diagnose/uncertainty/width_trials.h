@@ -3,12 +3,12 @@
  *
  * In: terms and runs. Out: trials with weights. No width is chosen: where the runs do not tell two apart both
  * count, each as likely as it describes them (theory.md, section 14). */
-#ifndef HCI_SRC_HOST_DIAGNOSE_WIDTH_TRIALS_H
-#define HCI_SRC_HOST_DIAGNOSE_WIDTH_TRIALS_H
+#ifndef HCI_SRC_HOST_DIAGNOSE_UNCERTAINTY_WIDTH_TRIALS_H
+#define HCI_SRC_HOST_DIAGNOSE_UNCERTAINTY_WIDTH_TRIALS_H
 
 #include "hci/host/base/note.h"
-#include "host/diagnose/allowed_terms.h"
-#include "host/diagnose/power_trials.h"
+#include "host/diagnose/uncertainty/allowed_terms.h"
+#include "host/diagnose/uncertainty/power_trials.h"
 #include "host/numeric/ridge.h"
 
 enum { HCI_MOST_WIDTHS = 24 };

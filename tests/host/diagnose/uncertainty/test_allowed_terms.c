@@ -1,6 +1,6 @@
 /* The terms in which a machine may differ from the one that was fitted: how far the series goes, and what is
  * expected of each. */
-#include "host/diagnose/allowed_terms.h"
+#include "host/diagnose/uncertainty/allowed_terms.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "host/diagnose/sidebands.h"
+#include "host/diagnose/uncertainty/sidebands.h"
 
 #include <math.h>
 

@@ -1,6 +1,6 @@
 /* Widths and powers that are tried on recordings left out in turn: which ones, how well each describes them
  * and what it weighs, beside ridges whose precisions are made here. */
-#include "host/diagnose/width_trials.h"
+#include "host/diagnose/uncertainty/width_trials.h"
 
 #include <math.h>
 #include <string.h>

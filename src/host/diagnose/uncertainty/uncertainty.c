@@ -1,4 +1,4 @@
-#include "host/diagnose/uncertainty.h"
+#include "host/diagnose/uncertainty/uncertainty.h"
 
 #include <math.h>
 #include <string.h>
@@ -8,8 +8,8 @@
 #include "host/diagnose/fit/linearise.h"
 #include "host/diagnose/fit/model.h"
 #include "host/diagnose/fit/run_parts.h"
-#include "host/diagnose/sidebands.h"
-#include "host/diagnose/width_trials.h"
+#include "host/diagnose/uncertainty/sidebands.h"
+#include "host/diagnose/uncertainty/width_trials.h"
 #include "host/machine/torque_constant.h"
 #include "host/recording/rotor_frame.h"
 

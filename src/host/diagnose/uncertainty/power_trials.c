@@ -1,4 +1,4 @@
-#include "host/diagnose/power_trials.h"
+#include "host/diagnose/uncertainty/power_trials.h"
 
 #include <math.h>
 

@@ -4,11 +4,11 @@
  * In: terms and runs, and the width of all else. Out: shares with weights. Runs at several currents show how
  * what was found grows, and so that there is little that grows faster; where they show nothing all shares
  * weigh alike (theory.md, section 14). */
-#ifndef HCI_SRC_HOST_DIAGNOSE_POWER_TRIALS_H
-#define HCI_SRC_HOST_DIAGNOSE_POWER_TRIALS_H
+#ifndef HCI_SRC_HOST_DIAGNOSE_UNCERTAINTY_POWER_TRIALS_H
+#define HCI_SRC_HOST_DIAGNOSE_UNCERTAINTY_POWER_TRIALS_H
 
 #include "hci/host/base/note.h"
-#include "host/diagnose/allowed_terms.h"
+#include "host/diagnose/uncertainty/allowed_terms.h"
 #include "host/numeric/ridge.h"
 
 enum { HCI_MOST_POWERS = 4 };

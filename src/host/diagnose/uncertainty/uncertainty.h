@@ -4,8 +4,8 @@
  * differ from the fitted one in its own terms, and in terms that it does not have: those of the co-energy to
  * higher powers of the currents and higher orders, each expected to be as small as iron has it. How wide that
  * expectation is and how large the errors are, is told by runs that are left out in turn. */
-#ifndef HCI_SRC_HOST_DIAGNOSE_UNCERTAINTY_H
-#define HCI_SRC_HOST_DIAGNOSE_UNCERTAINTY_H
+#ifndef HCI_SRC_HOST_DIAGNOSE_UNCERTAINTY_UNCERTAINTY_H
+#define HCI_SRC_HOST_DIAGNOSE_UNCERTAINTY_UNCERTAINTY_H
 
 #include "hci/host/machine/uncertainty.h"
 #include "host/diagnose/candidates/candidates.h"

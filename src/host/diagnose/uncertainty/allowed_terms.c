@@ -1,4 +1,4 @@
-#include "host/diagnose/allowed_terms.h"
+#include "host/diagnose/uncertainty/allowed_terms.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* The terms in which a machine may differ from the one that was fitted, and what is expected of them. */
-#ifndef HCI_SRC_HOST_DIAGNOSE_ALLOWED_TERMS_H
-#define HCI_SRC_HOST_DIAGNOSE_ALLOWED_TERMS_H
+#ifndef HCI_SRC_HOST_DIAGNOSE_UNCERTAINTY_ALLOWED_TERMS_H
+#define HCI_SRC_HOST_DIAGNOSE_UNCERTAINTY_ALLOWED_TERMS_H
 
 #include <stdbool.h>
 

@@ -3,8 +3,8 @@
  * What varies over the turn, as unequal magnets do, multiplies all of the torque: around each order of the
  * cogging torque and of what the back-EMF makes with the currents there are orders k/p beside it, of which
  * only those that stand out are found. The others are as large as the share that was found. */
-#ifndef HCI_SRC_HOST_DIAGNOSE_SIDEBANDS_H
-#define HCI_SRC_HOST_DIAGNOSE_SIDEBANDS_H
+#ifndef HCI_SRC_HOST_DIAGNOSE_UNCERTAINTY_SIDEBANDS_H
+#define HCI_SRC_HOST_DIAGNOSE_UNCERTAINTY_SIDEBANDS_H
 
 #include "host/diagnose/candidates/candidates.h"
 

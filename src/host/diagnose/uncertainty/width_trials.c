@@ -1,4 +1,4 @@
-#include "host/diagnose/width_trials.h"
+#include "host/diagnose/uncertainty/width_trials.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* Which recordings are left out together: one that another repeats stays with it, as long as three remain. */
-#include "host/diagnose/uncertainty.c"
+#include "host/diagnose/uncertainty/uncertainty.c"
 
 #include "support/reference.h"
 #include "unity.h"
