@@ -13,7 +13,7 @@
 #include "host/diagnose/odd_run.h"
 #include "host/diagnose/open_voltage.h"
 #include "host/diagnose/origin.h"
-#include "host/diagnose/search/attribute.h"
+#include "host/diagnose/attribute/attribute.h"
 #include "host/machine/torque_constant.h"
 
 #define RESOLUTION 5e-4 /* of the largest rms torque */

@@ -129,6 +129,26 @@ double hci_search_residual_rms(const hci_search *s)
     return count > 0.0 ? sqrt(sum / count) : 0.0;
 }
 
+double hci_search_ripple_rms(const hci_search *s)
+{
+    double sum = 0.0, count = 0.0;
+    for (const hci_segment *x = NULL; (x = hci_regression_next(s->regression, x)) != NULL;) {
+        double mean[2] = {0.0, 0.0}, telling[2] = {0.0, 0.0};
+        for (size_t j = x->first; j < x->first + x->count; ++j) {
+            const hci_binned_sample *b = &s->regression->samples->sample[j];
+            const int back = b->reading.speed_rad_per_s < 0.0;
+            mean[back] += s->residual_Nm[j];
+            telling[back] += b->count > 0.0 ? 1.0 : 0.0;
+            sum += s->residual_Nm[j] * s->residual_Nm[j];
+        }
+        for (int back = 0; back < 2; ++back) {
+            sum -= telling[back] > 0.0 ? mean[back] * mean[back] / telling[back] : 0.0;
+            count += telling[back];
+        }
+    }
+    return count > 0.0 ? sqrt(fmax(0.0, sum / count)) : 0.0;
+}
+
 double hci_search_noise_rms(const hci_search *s)
 {
     double sum = 0.0, count = 0.0;

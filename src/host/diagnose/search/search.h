@@ -38,11 +38,11 @@ typedef struct {
     bool known_only;                  /* nothing unknown competes */
     bool magnetic_only;               /* nor what direct currents do not tell from the magnetic circuit */
     bool no_current;                  /* nor what needs a current */
-    bool one_gain;           /* a gain of the torque sensor competes, whatever the residual shows */
-    const bool *denied;      /* nor these, of each type; NULL: none */
-    bool from_no_load;       /* the search went on from what the runs without a current show */
-    bool whole_coenergy;     /* all terms of the co-energy are in, each with an expectation */
-    hci_fitted_model single; /* the model with single terms, there; to be released */
+    bool one_gain;                    /* a gain of the torque sensor competes, whatever the residual shows */
+    const bool *denied;               /* nor these, of each type; NULL: none */
+    bool from_no_load;                /* the search went on from what the runs without a current show */
+    bool whole_coenergy;              /* all terms of the co-energy are in, each with an expectation */
+    hci_fitted_model single;          /* the model with single terms, there; to be released */
     const char *doing;
     double share, until; /* of all work: done so far, and when the step at hand is done */
     double kept_work;    /* of HCI_MOST_WORK, that is left for what follows */
@@ -78,6 +78,9 @@ hci_status hci_search_renew(hci_search *search, hci_fitted_model *model, hci_not
 /* Root mean square over the runs in use, N·m. */
 double hci_search_residual_rms(const hci_search *search);
 double hci_search_noise_rms(const hci_search *search);
+
+/* The rms of the residual about its mean in each segment, forward and back by itself. O(samples). */
+double hci_search_ripple_rms(const hci_search *search);
 
 /* explained_Nm: out, rms of what the model with an effect describes and the one without does not.
  * HCI_ERROR_MEMORY. */

@@ -2,7 +2,7 @@
 #define _XOPEN_SOURCE 700
 #include "host/diagnose/search/no_load.h"
 
-#include "host/diagnose/search/attribute.h"
+#include "host/diagnose/attribute/attribute.h"
 #include "support/searching.h"
 
 enum { N = 300 };

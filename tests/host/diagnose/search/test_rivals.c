@@ -1,7 +1,7 @@
 /* Effects in place of others: what the recordings cannot tell apart is ambiguous, what they can is not. */
 #include "host/diagnose/search/rivals.h"
 
-#include "host/diagnose/search/attribute.h"
+#include "host/diagnose/attribute/attribute.h"
 #include "host/diagnose/search/candidate_models.h"
 #include "support/searching.h"
 

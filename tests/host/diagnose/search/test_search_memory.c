@@ -1,7 +1,7 @@
 /* Memory that is short at any place of a step of the search: it says so and leaves nothing behind, which the
  * sanitizers see. Steps of a few hundred allocations at each of the first ones, and at some of the rest. */
 #include "host/base/memory.h"
-#include "host/diagnose/search/attribute.h"
+#include "host/diagnose/attribute/attribute.h"
 #include "host/diagnose/search/backward.h"
 #include "host/diagnose/search/belief.h"
 #include "host/diagnose/search/few_values.h"
@@ -11,7 +11,7 @@
 #include "host/diagnose/search/rounds.h"
 #include "host/diagnose/search/scaled.h"
 #include "host/diagnose/search/sensor_zeros.h"
-#include "host/diagnose/search/settle.h"
+#include "host/diagnose/attribute/settle.h"
 #include "host/diagnose/search/stability.h"
 #include "support/searching.h"
 

@@ -1,5 +1,5 @@
 /* After an attribution all that follows goes by the means again, known to the search or not. */
-#include "host/diagnose/search/attribute.h"
+#include "host/diagnose/attribute/attribute.h"
 
 #include "support/searching.h"
 

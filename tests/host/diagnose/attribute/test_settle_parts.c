@@ -1,6 +1,8 @@
 /* What is much beside what is known, what a model costs whose runs have means of their own, and when single
  * terms take the place of a whole. */
-#include "host/diagnose/search/settle.c"
+#include "host/diagnose/attribute/cancelling_orders.c"
+#include "host/diagnose/attribute/settle.c"
+#include "host/diagnose/attribute/settle_means.c"
 
 #include "support/searching.h"
 
@@ -125,7 +127,7 @@ static void test_orders_that_cancel(void)
         model_fit();
         value_set(5.0, 0.03);
         value_set(7.0, 0.029);
-        TEST_ASSERT_EQUAL_INT(HCI_OK, cancelling_ask(&search, &model, &note));
+        TEST_ASSERT_EQUAL_INT(HCI_OK, hci_cancelling_orders_leave(&search, &model, &note));
         TEST_ASSERT_EQUAL_UINT64(is_left ? 2 : 1, hci_candidates_terms_in(&model.candidates));
         tearDown();
         setUp();

@@ -1,7 +1,7 @@
 /* Whether what is left is noise. */
-#include "host/diagnose/search/settle.h"
+#include "host/diagnose/attribute/settle.h"
 
-#include "host/diagnose/search/attribute.h"
+#include "host/diagnose/attribute/attribute.h"
 #include "host/diagnose/search/noise_left.h"
 #include "support/searching.h"
 

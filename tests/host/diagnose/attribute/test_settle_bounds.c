@@ -1,5 +1,7 @@
 /* What is known beside what is not: each bound from both sides. */
-#include "host/diagnose/search/settle.c"
+#include "host/diagnose/attribute/cancelling_orders.c"
+#include "host/diagnose/attribute/settle.c"
+#include "host/diagnose/attribute/settle_means.c"
 
 #include "support/one_segment.h"
 #include "unity.h"
@@ -56,7 +58,7 @@ static void test_ripple_beside_the_means(void)
     }
     for (size_t k = 0; k < N; ++k)
         square += k % 7 == 0 ? 0.0 : pow(residual[k] - mean[k % 5 < 2] / count[k % 5 < 2], 2.0);
-    TEST_ASSERT_DOUBLE_WITHIN(1e-12, sqrt(square / (count[0] + count[1])), ripple_rms(&search));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, sqrt(square / (count[0] + count[1])), hci_search_ripple_rms(&search));
 }
 
 int main(void)

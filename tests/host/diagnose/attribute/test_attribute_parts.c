@@ -1,6 +1,6 @@
 /* Parts of the attribution by themselves: values that are equal, what is beside something unknown, what the
  * machine leaves. */
-#include "host/diagnose/search/attribute.c"
+#include "host/diagnose/attribute/attribute.c"
 
 #include "support/searching.h"
 

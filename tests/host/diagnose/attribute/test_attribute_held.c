@@ -1,5 +1,5 @@
 /* Whether a holding test is among the runs that are used. */
-#include "host/diagnose/search/attribute.c"
+#include "host/diagnose/attribute/attribute.c"
 
 #include "unity.h"
 

@@ -1,161 +1,27 @@
-#include "host/diagnose/search/settle.h"
+#include "host/diagnose/attribute/settle_means.h"
 
 #include <math.h>
 
 #include "host/diagnose/candidates/empirical_term.h"
-#include "host/diagnose/fit/cancelling.h"
 #include "host/diagnose/fit/unlike_iron.h"
 #include "host/diagnose/search/backward.h"
 #include "host/diagnose/search/belief.h"
+#include "host/diagnose/search/brakes.h"
 #include "host/diagnose/search/coenergy.h"
 #include "host/diagnose/search/forward.h"
 #include "host/diagnose/search/noise_left.h"
 #include "host/diagnose/search/scaled.h"
 #include "host/diagnose/search/stability.h"
 
-#define NOT_SMALL   2.0  /* times the resolution: rms of a residual that has to be understood */
-#define LEAST_SHARE 0.25 /* of the residual's mean square that counts as unexplained when it is uneven */
-#define SMALL       0.6  /* what is not understood is no finding below this share of what is */
-#define UNTOUCHED   1.5  /* a known effect this much larger than what is not understood stands beside it */
-#define BESIDE_MEANS                                                                                         \
-    0.1 /* of the square of what is left, that may stand in the ripple beside means alone                    \
-         */
-#define UNPREDICTED                                                                                          \
-    0.04 /* of what effects explain, that they leave in runs left out: a fifth of the error                  \
-          */
+#define BESIDE_MEANS 0.1 /* of the square of what is left, that may stand in the ripple beside means alone   \
+                          */
+#define UNPREDICTED 0.04 /* of what effects explain, that they leave in runs left out: a fifth of the error  \
+                          */
+#define PART_OF_IT 0.02  /* the same, of iron beside something unknown: a seventh of the error */
+#define MOSTLY     0.25  /* the same, of effects that are there and not all */
+#define AS_BADLY   0.5   /* of that, by the ripple alone: then it is not the means */
 
-#define PART_OF_IT 0.02 /* the same, of iron beside something unknown: a seventh of the error */
-#define MOSTLY     0.25 /* the same, of effects that are there and not all */
-#define AS_BADLY   0.5  /* of that, by the ripple alone: then it is not the means */
-
-/* ---- what is left ---- */
-
-/* Whether the residual that is left is noise, and how much of it is not known. noise_Nm: out. */
-static hci_status residual_judge(hci_search *s, hci_attribution *a, double *noise_Nm, hci_note *note)
-{
-    const double least_Nm = NOT_SMALL * s->resolution_Nm;
-    hci_noise_left x;
-    const hci_status status = hci_noise_left_find(s, &a->model.candidates, &x, note);
-    if (status || !(x.rows > 0.0)) return status;
-    const double excess = x.square_Nm2 / x.noise_Nm2 - 1.0, left = x.square_Nm2 / x.rows;
-    a->wanders = x.wanders;
-    a->unknown = !x.is_noise && left > least_Nm * least_Nm;
-    *noise_Nm = sqrt(x.noise_Nm2 / x.rows);
-    a->unexplained_Nm = a->unknown ? sqrt(left * fmax(excess / (1.0 + excess), LEAST_SHARE)) : 0.0;
-    return HCI_OK;
-}
-
-/* ---- what is understood beside what is not ---- */
-
-/* Adds what a type explains, as rms. Nothing where it is not in. */
-static hci_status explained_add(hci_search *s, const hci_fitted_model *model, const hci_effect_type *type,
-                                double *sum_Nm, hci_note *note)
-{
-    double explained_Nm;
-    const hci_status status = hci_search_explained_by(s, model, type, &explained_Nm, note);
-    *sum_Nm = hypot(*sum_Nm, explained_Nm);
-    return status;
-}
-
-/* The rms of the residual about its mean in each segment, forward and back by itself. */
-static double ripple_rms(const hci_search *s)
-{
-    double sum = 0.0, count = 0.0;
-    for (const hci_segment *x = NULL; (x = hci_regression_next(s->regression, x)) != NULL;) {
-        double mean[2] = {0.0, 0.0}, telling[2] = {0.0, 0.0};
-        for (size_t j = x->first; j < x->first + x->count; ++j) {
-            const hci_binned_sample *b = &s->regression->samples->sample[j];
-            const int back = b->reading.speed_rad_per_s < 0.0;
-            mean[back] += s->residual_Nm[j];
-            telling[back] += b->count > 0.0 ? 1.0 : 0.0;
-            sum += s->residual_Nm[j] * s->residual_Nm[j];
-        }
-        for (int back = 0; back < 2; ++back) {
-            sum -= telling[back] > 0.0 ? mean[back] * mean[back] / telling[back] : 0.0;
-            count += telling[back];
-        }
-    }
-    return count > 0.0 ? sqrt(fmax(0.0, sum / count)) : 0.0;
-}
-
-/* What is understood and what is not, as rms; the same of the ripple beside the means. */
-typedef struct {
-    double known_Nm, unexplained_Nm, known_ripple_Nm, unexplained_ripple_Nm, noise_Nm;
-} understanding;
-
-/* Of a model: what its effects explain, each by itself, and all together of the ripple. */
-static hci_status known_of(hci_search *s, const hci_fitted_model *model, understanding *u, hci_note *note)
-{
-    static const hci_candidates none = {0};
-    hci_status status = HCI_OK;
-    for (size_t r = 0; hci_effect_type_at(r) && !status; ++r)
-        status = explained_add(s, model, hci_effect_type_at(r), &u->known_Nm, note);
-    if (!status) status = hci_search_residual(s, &none, note);
-    const double before_Nm = ripple_rms(s);
-    if (!status) status = hci_search_residual(s, &model->candidates, note);
-    const double after_Nm = ripple_rms(s), all_Nm = hci_search_residual_rms(s);
-    u->known_ripple_Nm = sqrt(fmax(0.0, before_Nm * before_Nm - after_Nm * after_Nm));
-    u->unexplained_ripple_Nm = all_Nm > 0.0 ? u->unexplained_Nm * fmin(1.0, after_Nm / all_Nm) : 0.0;
-    return status;
-}
-
-/* Whether what is not understood is large beside what is, or its ripple, above the noise, beside the ripple
- * that is: a friction, which makes none, explains none. */
-static bool is_much(const understanding *u)
-{
-    return u->unexplained_Nm > SMALL * u->known_Nm ||
-           u->unexplained_ripple_Nm > fmax(SMALL * u->known_ripple_Nm, u->noise_Nm);
-}
-
-/* Known effects beside something larger that is not understood cannot be told from a part of it, and go; a
- * description of a small remainder goes as well. */
-static hci_status types_leave(hci_search *s, hci_attribution *a, double unexplained_Nm, hci_note *note)
-{
-    hci_candidates *model = &a->model.candidates;
-    hci_status status = HCI_OK;
-    for (size_t r = 0; r < a->types && !status; ++r) {
-        const hci_effect_type *type = hci_candidate_type(r);
-        double explained_Nm = 0.0;
-        if (!hci_candidates_have(model, type) || (type == &hci_empirical_type) == a->unknown) continue;
-        if (a->unknown) status = explained_add(s, &a->model, type, &explained_Nm, note);
-        if (status || explained_Nm > UNTOUCHED * unexplained_Nm) continue;
-        hci_candidates_remove_type(model, type);
-    }
-    return status;
-}
-
-/* Where a model that is not believed is better, something is behind the recordings that is not known, and
- * all that is left may belong to it. */
-static void disbelieved_set(const hci_search *s, hci_yield yield, hci_attribution *a)
-{
-    a->disbelieved = s->disbelieved.type;
-    a->disbelieved_share = s->disbelieved.constant_share;
-    if (yield != HCI_YIELD_BETTER) return;
-    a->unknown = true;
-    a->unexplained_Nm = hci_search_residual_rms(s);
-}
-
-/* unpredicted: runs left out say that the effects are not all. */
-static hci_status settle(hci_search *s, bool unpredicted, hci_attribution *a, hci_note *note)
-{
-    understanding u = {0.0, 0.0, 0.0, 0.0, 0.0};
-    hci_yield yield = HCI_YIELD_NOTHING;
-    hci_status status = hci_search_yield(s, &a->model, &yield, note);
-    if (!status) status = residual_judge(s, a, &u.noise_Nm, note);
-    if (yield) disbelieved_set(s, yield, a);
-    if (unpredicted) a->unexplained_Nm = fmax(a->unexplained_Nm, hci_search_residual_rms(s));
-    u.unexplained_Nm = a->unexplained_Nm;
-    if (!status) status = explained_add(s, &a->model, &hci_empirical_type, &u.unexplained_Nm, note);
-    if (status || !(u.unexplained_Nm > 0.0)) return status;
-    status = known_of(s, &a->model, &u, note);
-    if (status) return status;
-    a->unknown = unpredicted || yield == HCI_YIELD_BETTER || is_much(&u);
-    status = types_leave(s, a, u.unexplained_Nm, note);
-    if (!status && a->unknown) a->unexplained_Nm = u.unexplained_Nm;
-    return status;
-}
-
-/* ---- the means of the runs ---- */
+/* ---- what stands in the ripple alone ---- */
 
 /* Takes a type out that explains nothing once the means count: what little ripple it describes makes values
  * of it that the means forbid. */
@@ -280,7 +146,7 @@ static bool breaks_mirror(const hci_search *s, const hci_candidates *model)
 
 /* And where the means of the whole keep their sign with the load, as no iron's do, and those of the single
  * terms turn it. */
-static hci_status mirror_ask(hci_search *s, hci_fitted_model *model, hci_note *note)
+hci_status hci_settle_mirror(hci_search *s, hci_fitted_model *model, hci_note *note)
 {
     if (!s->whole_coenergy || hci_candidates_types_in(&s->single.candidates) == 0) return HCI_OK;
     if (!breaks_mirror(s, &model->candidates) || breaks_mirror(s, &s->single.candidates)) return HCI_OK;
@@ -290,88 +156,12 @@ static hci_status mirror_ask(hci_search *s, hci_fitted_model *model, hci_note *n
     return status ? status : hci_search_drop_unsure(s, model, note);
 }
 
-/* ---- orders that cancel ---- */
-
-/* Takes out the one of a type without which the others describe the recordings best. */
-static hci_status order_leaves(hci_search *s, hci_fitted_model *model, const hci_effect_type *type,
-                               hci_note *note)
-{
-    hci_fitted_model best = {0};
-    hci_status status = HCI_OK;
-    best.fit.score = INFINITY;
-    for (size_t k = 0; k < model->candidates.count && !status; ++k) {
-        hci_fitted_model without = {0};
-        if (!model->candidates.candidate[k].in || model->candidates.candidate[k].type != type) continue;
-        status = hci_fitted_model_copy(model, &without, note);
-        if (!status) without.candidates.candidate[k].in = false;
-        if (!status)
-            status = hci_regression_fit_below(s->regression, &without.candidates, best.fit.score,
-                                              &without.fit, note);
-        if (!status && without.fit.score < best.fit.score) hci_fitted_model_replace(&best, &without);
-        hci_fitted_model_release(&without);
-    }
-    if (!status && best.candidates.candidate) hci_fitted_model_replace(model, &best);
-    hci_fitted_model_release(&best);
-    return status;
-}
-
-static size_t orders_of(const hci_candidates *model, const hci_effect_type *type)
-{
-    size_t count = 0;
-    for (size_t k = 0; k < model->count; ++k)
-        count += model->candidate[k].in && model->candidate[k].type == type;
-    return count;
-}
-
-/* Takes orders out until none cancel; type: in and out, NULL where that is so. */
-static hci_status orders_leave(hci_search *s, hci_fitted_model *model, const hci_effect_type **type,
-                               hci_note *note)
-{
-    hci_status status = HCI_OK;
-    while (!status && *type && orders_of(&model->candidates, *type) > 1) {
-        status = order_leaves(s, model, *type, note);
-        if (!status) status = hci_cancelling_find(s->regression, &model->candidates, type, note);
-    }
-    return status;
-}
-
-/* What they were there for beside that is another effect. */
-static hci_status other_comes(hci_search *s, hci_fitted_model *model, const hci_effect_type **type,
-                              bool *is_all, hci_note *note)
-{
-    bool added = false;
-    hci_status status = hci_search_is_noise(s, &model->candidates, is_all, note);
-    if (status || *is_all || *type) return status;
-    status = hci_search_renew(s, model, note);
-    if (!status) status = hci_search_forward(s, model, &added, note);
-    if (!status) status = hci_cancelling_find(s->regression, &model->candidates, type, note);
-    if (!status) status = hci_search_is_noise(s, &model->candidates, is_all, note);
-    return status;
-}
-
-/* Where two orders of an effect make the same torque at the currents that flowed, one stands for both, if
- * nothing but noise is left then. */
-static hci_status cancelling_ask(hci_search *s, hci_fitted_model *model, hci_note *note)
-{
-    hci_fitted_model fewer = {0};
-    const hci_effect_type *type = NULL;
-    bool is_all = false;
-    hci_status status = hci_cancelling_find(s->regression, &model->candidates, &type, note);
-    if (status || !type) return status;
-    status = hci_fitted_model_copy(model, &fewer, note);
-    if (!status) status = orders_leave(s, &fewer, &type, note);
-    if (!status) status = other_comes(s, &fewer, &type, &is_all, note);
-    if (!status && is_all && !type) hci_fitted_model_replace(model, &fewer);
-    hci_fitted_model_release(&fewer);
-    return status ? status : hci_search_renew(s, model, note);
-}
-
 /* ---- what runs left out say ---- */
 
 /* A few numbers for as many runs describe the mean of each whatever it is, such as a zero that is
  * another one each time: effects that explain the runs but not those left out are none. unpredicted: out,
  * they are some, and something else is missing. */
-static hci_status means_judge(hci_search *s, hci_attribution *a, bool *unpredicted, hci_note *note)
+hci_status hci_settle_means(hci_search *s, hci_attribution *a, bool *unpredicted, hci_note *note)
 {
     double share = 0.0;
     hci_status status = hci_search_unpredicted(s, &a->model.candidates, &share, note);
@@ -419,7 +209,7 @@ static hci_status are_means_better(hci_search *s, const hci_attribution *a, bool
     return status;
 }
 
-static hci_status means_ask(hci_search *s, hci_attribution *a, hci_note *note)
+hci_status hci_settle_saturation(hci_search *s, hci_attribution *a, hci_note *note)
 {
     bool better = false;
     hci_status status = a->means_open ? HCI_OK : are_means_better(s, a, &better, note);
@@ -437,7 +227,7 @@ static hci_status ripple_left(hci_search *s, hci_fitted_model *model, double *le
 {
     hci_status status = hci_regression_fit(s->regression, &model->candidates, &model->fit, note);
     if (!status) status = hci_search_residual(s, &model->candidates, note);
-    *left_Nm = status ? 0.0 : ripple_rms(s);
+    *left_Nm = status ? 0.0 : hci_search_ripple_rms(s);
     return status;
 }
 
@@ -532,7 +322,7 @@ static hci_status one_load_take(hci_search *s, hci_fitted_model *model, hci_note
 
 /* Where settling took effects out for the sake of means that nothing explains, those that describe the ripple
  * stay; not of another machine. before: the model that was settled; what is left in it is of no use. */
-static hci_status ripple_stays(hci_search *s, hci_attribution *a, hci_fitted_model *before, hci_note *note)
+hci_status hci_settle_ripple(hci_search *s, hci_attribution *a, hci_fitted_model *before, hci_note *note)
 {
     bool known = false, about = false;
     if (!a->unknown || a->means_open || s->ended == HCI_WORK_INTERRUPTED ||
@@ -548,21 +338,4 @@ static hci_status ripple_stays(hci_search *s, hci_attribution *a, hci_fitted_mod
     hci_fitted_model_replace(&a->model, before);
     s->whole_coenergy = false;
     return means_leave(s, a, note);
-}
-
-/* Judging finds the noise anew, and scores are comparable with the same noise only. */
-hci_status hci_search_settle(hci_search *s, hci_attribution *a, hci_note *note)
-{
-    hci_fitted_model before = {0};
-    bool unpredicted = false;
-    hci_status status = mirror_ask(s, &a->model, note);
-    if (!status) status = means_judge(s, a, &unpredicted, note);
-    if (!status && !a->means_open) status = cancelling_ask(s, &a->model, note);
-    if (!status && !a->means_open) status = hci_search_keep_brakes(s, &a->model, note);
-    if (!status && !a->means_open) status = hci_fitted_model_copy(&a->model, &before, note);
-    if (!status && !a->means_open) status = settle(s, unpredicted, a, note);
-    if (!status) status = ripple_stays(s, a, &before, note);
-    hci_fitted_model_release(&before);
-    if (!status) status = hci_search_renew(s, &a->model, note);
-    return status ? status : means_ask(s, a, note);
 }

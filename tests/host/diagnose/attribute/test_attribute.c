@@ -1,5 +1,5 @@
 /* A search that goes on from what another one has found ends at the same model, by less work. */
-#include "host/diagnose/search/attribute.h"
+#include "host/diagnose/attribute/attribute.h"
 
 #include "support/searching.h"
 

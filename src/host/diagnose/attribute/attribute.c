@@ -1,10 +1,11 @@
-#include "host/diagnose/search/attribute.h"
+#include "host/diagnose/attribute/attribute.h"
 
 #include <assert.h>
 #include <math.h>
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/diagnose/attribute/settle.h"
 #include "host/diagnose/candidates/creeping_angle.h"
 #include "host/diagnose/candidates/empirical_term.h"
 #include "host/diagnose/candidates/slip.h"
@@ -21,7 +22,6 @@
 #include "host/diagnose/search/rivals.h"
 #include "host/diagnose/search/rounds.h"
 #include "host/diagnose/search/scaled.h"
-#include "host/diagnose/search/settle.h"
 #include "host/diagnose/search/stability.h"
 
 #define RATIO       1e-3 /* change of the torque per ampere, as a share, that an inertia may be wrong by */
