@@ -94,7 +94,8 @@ static hci_status read_waves(const cli_arguments *a, cli_emit_currents *in, hci_
     snprintf(in->provenance[0], sizeof in->provenance[0], "%zu current components, solved by hci-solve",
              in->current.count);
     in->lines[0] = in->provenance[0];
-    in->lines[1] = hci_solution_verdict_words(hci_solution_read_verdict(a->word[0]));
+    hci_solution_verdict_words(a->word[0], in->provenance[1], sizeof in->provenance[1]);
+    in->lines[1] = in->provenance[1];
     in->request.provenance = in->lines;
     in->request.provenance_count = in->lines[1][0] != '\0' ? 2 : 1;
     return HCI_OK;

@@ -5,13 +5,14 @@
 
 #include "cli/command/option.h"
 #include "hci/host/currents/currents.h"
+#include "hci/host/currents/solution_folder.h"
 #include "hci/host/emit/emit.h"
 #include "hci/host/machine/machine.h"
 
 /* All of it in one place; `request` points into the rest, so that it is not to be moved. Start with {0}. */
 typedef struct {
     hci_currents current, per_Nm;
-    char provenance[2][160];
+    char provenance[2][HCI_SOLUTION_WORDS];
     const char *lines[2];
     hci_emit_request request;
     hci_machine_data machine; /* empty where it is not given */

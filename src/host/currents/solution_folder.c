@@ -204,13 +204,31 @@ hci_solution_verdict hci_solution_read_verdict(const char *path)
     return !within ? HCI_SOLUTION_OUT_OF_LIMITS : reached ? HCI_SOLUTION_GOOD : HCI_SOLUTION_NOT_REACHED;
 }
 
-const char *hci_solution_verdict_words(hci_solution_verdict verdict)
+/* By how much the torque misses what was wanted, where summary.json has it. */
+static void say_missed(const char *path, char *words, size_t size)
 {
-    static const char *const WORDS[] = {"",
-                                        ("the torque of these currents is not as it was wanted: `solve` says "
-                                         "not reached, the nearest is given"),
-                                        "these currents do not keep the limits with which they were solved"};
-    return WORDS[verdict];
+    double worst_Nm, order;
+    char *text = summary_of(path);
+    if (text && hci_json_find_number(text, "torque", "worst_error_Nm", &worst_Nm) &&
+        hci_json_find_number(text, "torque", "worst_order", &order))
+        snprintf(words, size, ", by %.2g N·m at most, in order %.4g", worst_Nm, order);
+    hci_memory_free(text);
+}
+
+void hci_solution_verdict_words(const char *path, char *words, size_t size)
+{
+    const hci_solution_verdict verdict = hci_solution_read_verdict(path);
+    char missed[80] = "";
+    words[0] = '\0';
+    if (verdict == HCI_SOLUTION_OUT_OF_LIMITS)
+        snprintf(words, size, "these currents do not keep the limits with which they were solved");
+    if (verdict != HCI_SOLUTION_NOT_REACHED) return;
+    say_missed(path, missed, sizeof missed);
+    snprintf(
+        words, size,
+        "the torque of these currents is not as it was wanted%s: `solve` says not reached, the nearest is "
+        "given",
+        missed);
 }
 
 /* Where the machine that summary.json names is not the given one. */
@@ -245,11 +263,9 @@ static void remark_open(const char *path, hci_note *remark)
 
 void hci_solution_remark(const char *path, const hci_machine_data *machine, hci_note *remark)
 {
-    const hci_solution_verdict verdict = hci_solution_read_verdict(path);
-    char shown[HCI_QUOTE_PATH_SIZE];
-    if (verdict != HCI_SOLUTION_GOOD)
-        hci_note_add(remark, "%s: %s (summary.json)", hci_quote_path(path, shown),
-                     hci_solution_verdict_words(verdict));
+    char shown[HCI_QUOTE_PATH_SIZE], words[HCI_SOLUTION_WORDS];
+    hci_solution_verdict_words(path, words, sizeof words);
+    if (words[0]) hci_note_add(remark, "%s: %s (summary.json)", hci_quote_path(path, shown), words);
     remark_open(path, remark);
     if (machine) remark_machine(path, &machine->identity, remark);
 }

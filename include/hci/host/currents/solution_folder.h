@@ -69,8 +69,11 @@ double hci_solution_read_current_limit(const char *path);
 /* By summary.json of the folder; good for one file, and where there is none. */
 hci_solution_verdict hci_solution_read_verdict(const char *path);
 
-/* In words; "" where they are good; a static string. */
-const char *hci_solution_verdict_words(hci_solution_verdict verdict);
+enum { HCI_SOLUTION_WORDS = 240 };
+
+/* In words, and by how much a torque is missed; "" where they are good. words[size]: HCI_SOLUTION_WORDS are
+ * enough. */
+void hci_solution_verdict_words(const char *path, char *words, size_t size);
 
 /* HCI_ERROR_INPUT for a folder without currents.csv: what it is, and what to do. */
 hci_status hci_solution_check_folder(const char *folder, hci_note *note);
