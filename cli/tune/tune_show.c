@@ -99,6 +99,8 @@ void cli_show_tuning(const cli_tuning *t)
     }
     for (int k = HCI_TUNING_READ; k < HCI_TUNING_PARTS; ++k)
         show_part(r, (hci_tuning_part)k);
+    if (t->is_solved && !t->is_emitted)
+        cli_say("\n%s/currents is what the model would have, to look at: it is no table to play.\n", t->out);
     cli_say("\nThe report is %s/report.html; sh %s/commands.sh FOLDER does this again, step by step:\n",
             t->out, t->out);
     show_commands(t);
