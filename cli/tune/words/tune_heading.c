@@ -46,7 +46,7 @@ static void say_bound(const cli_tuning *t, double before_Nm, double after_Nm, ch
         snprintf(
             text, size,
             "A ripple of %.3g N·m from peak to peak falls to at most %.3g N·m on the machine (95 %%)%s, of "
-            "which the table makes %.2g",
+            "which the table makes %.2g N·m",
             before_Nm, hci_ripple_bound_as_said(e->peak_to_peak_Nm), if_in_time(t),
             hci_ripple_bound_as_said(e->table_peak_to_peak_Nm));
     else

@@ -28,7 +28,8 @@ static const char STYLE[] =
     "h1,h2{font-family:'Iowan Old Style','Palatino Linotype',Palatino,Charter,Georgia,serif;"
     "line-height:1.2;text-wrap:balance}"
     "h1{font-size:2.1rem;margin:.3rem 0 .8rem}"
-    ".also{margin:0 0 .8rem;padding-left:1.2rem;max-width:46rem;font-size:1.05rem}.also li{margin:.2rem "
+    "sub{line-height:0}.also{margin:0 0 .8rem;padding-left:1.2rem;max-width:46rem;font-size:1.05rem}.also "
+    "li{margin:.2rem "
     "0}.also+.also{margin-top:-.6rem}"
     "h2{font-size:1.3rem;margin:2.2rem 0 .5rem;padding-top:.8rem;border-top:1px solid var(--line)}"
     "h1,h2,p,td,figcaption{overflow-wrap:anywhere}"
@@ -90,18 +91,57 @@ static void put_part(hci_output *out, const char *text, size_t length)
     hci_svg_text(out, part);
 }
 
+static bool is_of_word(char c)
+{
+    return isalnum((unsigned char)c) || c == '_';
+}
+
+/* A current or an inductance with the letter that is its subscript, such as i_q. */
+static bool is_symbol(const char *text, const char *at)
+{
+    return (at[0] == 'i' || at[0] == 'L') && at[1] == '_' && at[2] && strchr("abcdq", at[2]) &&
+           !is_of_word(at[3]) && (at == text || !is_of_word(at[-1]));
+}
+
+/* The space between a number and its unit, at which no line ends. */
+static bool is_before_unit(const char *text, const char *at)
+{
+    static const char *const UNIT[] = {"N·m", "A", "V", "rpm", "Hz", "kHz", "%", "ms", "°"};
+    if (*at != ' ' || at == text || !isdigit((unsigned char)at[-1])) return false;
+    for (size_t k = 0; k < sizeof UNIT / sizeof *UNIT; ++k)
+        if (strncmp(at + 1, UNIT[k], strlen(UNIT[k])) == 0 && !is_of_word(at[1 + strlen(UNIT[k])]))
+            return true;
+    return false;
+}
+
+/* The first `length` bytes of a sentence. */
+static void put_prose(hci_output *out, const char *text, size_t length)
+{
+    const char *from = text;
+    for (const char *at = text; at < text + length; ++at) {
+        const bool symbol = is_symbol(text, at), unit = !symbol && is_before_unit(text, at);
+        if (!symbol && !unit) continue;
+        put_part(out, from, (size_t)(at - from));
+        if (symbol) hci_output_text(out, "%c<sub>%c</sub>", at[0], at[2]);
+        if (unit) hci_output_text(out, "&#160;");
+        at += symbol ? 2 : 0;
+        from = at + 1;
+    }
+    put_part(out, from, (size_t)(text + length - from));
+}
+
 /* What stands between two grave accents is code. */
 static void put_with_code(hci_output *out, const char *text)
 {
     const char *begin, *end;
     while ((begin = strchr(text, '`')) != NULL && (end = strchr(begin + 1, '`')) != NULL) {
-        put_part(out, text, (size_t)(begin - text));
+        put_prose(out, text, (size_t)(begin - text));
         hci_output_text(out, "<code>");
         put_part(out, begin + 1, (size_t)(end - begin - 1));
         hci_output_text(out, "</code>");
         text = end + 1;
     }
-    hci_svg_text(out, text);
+    put_prose(out, text, strlen(text));
 }
 
 /* Bytes of a sentence up to the semicolon after its first clause, outside parentheses. */
@@ -212,22 +252,10 @@ void hci_html_say(hci_output *out, const char *style, const char *format, ...)
     hci_html_paragraph(out, style, text);
 }
 
-/* The letter after "i_" is a subscript. */
-static void put_heading(hci_output *out, const char *text)
-{
-    for (const char *at; (at = strstr(text, "i_")) && at[2] && strchr("abcdq", at[2]); text = at + 3) {
-        char before[512];
-        snprintf(before, sizeof before, "%.*s", (int)(at - text) + 1, text);
-        hci_svg_text(out, before);
-        hci_output_text(out, "<sub>%c</sub>", at[2]);
-    }
-    hci_svg_text(out, text);
-}
-
 void hci_html_section(hci_output *out, const char *heading)
 {
     hci_output_text(out, "<section>\n<h2>");
-    put_heading(out, heading);
+    put_prose(out, heading, strlen(heading));
     hci_output_text(out, "</h2>\n");
 }
 

@@ -71,13 +71,13 @@ static void test_the_opening(void)
     text_has("<title>one is (two; three) and `f`</title>", text);
     text_has(
         "<p class=\"kicker\"><span class=\"badge good\">ba&#60;d</span> <span class=\"topic\">kick &#38; off"
-        "</span></p>\n<h1>One is (two; three) and <code>f</code></h1>\n<ul class=\"also\">\n<li>i_q is "
-        "four</li>\n"
+        "</span></p>\n<h1>One is (two; three) and <code>f</code></h1>\n<ul class=\"also\">\n<li>i<sub>q</sub> "
+        "is four</li>\n"
         "<li>Δ (five; (six; a) b)</li>\n<li>Seven;eight</li>\n</ul>\n",
         text);
     text = opening("i_d alone", false);
     text_has("<span class=\"badge bad\">", text);
-    text_has("<h1>i_d alone</h1>\n", text);
+    text_has("<h1>i<sub>d</sub> alone</h1>\n", text);
     text_lacks("<ul", text);
     text_has("<h1>X</h1>\n", opening("x", false));
     text_has("<h1></h1>\n", opening("", false));
@@ -103,7 +103,10 @@ static void test_sections(void)
         "<section>\n<h2>i<sub>d</sub> and i<sub>q</sub> &#38; i_x, i_</h2>\n</section>\n"
         "<div id=\"evidence\" tabindex=\"-1\"></div>\n<details><summary>a &#38; b</summary>\n</details>\n");
     hci_html_section(out, "axi_a");
-    is_written("<section>\n<h2>axi<sub>a</sub></h2>\n");
+    is_written("<section>\n<h2>axi_a</h2>\n");
+    hci_html_paragraph(out, NULL, "L_q of 3 N·m, i_a_rms, 2 A; 4 Amp `i_b 5 A` i_b");
+    is_written(
+        "<p>L<sub>q</sub> of 3&#160;N·m, i_a_rms, 2&#160;A; 4 Amp <code>i_b 5 A</code> i<sub>b</sub></p>\n");
     hci_html_end(out);
     text_has("</p>\n</main>\n</body>\n</html>\n", written());
 }

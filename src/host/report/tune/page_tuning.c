@@ -1,6 +1,7 @@
 /* The page of `tune`: verdict, before and after, the pictures, and what was read, found and left open. */
 #include "host/report/tune/page_tuning.h"
 
+#include <ctype.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -62,13 +63,26 @@ static void show_before_and_after(const hci_solution_page *page, double table_Nm
     hci_page_before_and_after(&p);
 }
 
+/* A sentence begins with a capital; a name, as of a file or a column, stays as it is. */
+static void say_line(hci_output *out, const char *style, const char *text, size_t length)
+{
+    char line[4096];
+    snprintf(line, sizeof line, "%.*s", (int)length, text);
+    const size_t word = strspn(line, "abcdefghijklmnopqrstuvwxyz");
+    if (word > 0 && strchr(" ,:", line[word])) line[0] = (char)toupper((unsigned char)line[0]);
+    hci_html_paragraph(out, style, line);
+}
+
 /* What is set in belongs to the line above it. */
 static void say_lines(hci_output *out, const char *text)
 {
     while (*text) {
         const size_t length = strcspn(text, "\n");
         const size_t blanks = strspn(text, " ");
-        hci_html_say(out, blanks > 0 ? "of" : "", "%.*s", (int)(length - blanks), text + blanks);
+        if (blanks > 0)
+            hci_html_say(out, "of", "%.*s", (int)(length - blanks), text + blanks);
+        else
+            say_line(out, "", text, length);
         text += length + (text[length] == '\n');
     }
 }
