@@ -31,6 +31,13 @@ typedef struct {
     double value, slope, curvature;
 } hci_coenergy_monomial;
 
+/* What terms of one parameter have in common: c = scale × value, powers a and b, and f. */
+typedef struct {
+    int d, q;
+    bool cosine;
+    double scale;
+} hci_coenergy_kind;
+
 /* The sum at one sample. */
 typedef struct {
     int pole_pairs;
@@ -58,20 +65,36 @@ size_t hci_coenergy_wave_at(hci_coenergy *w, double order);
 /* From the last monomial to another one. */
 void hci_coenergy_go_on(hci_coenergy *w, int a, int b);
 
-/* Adds c f g with a, b >= 0 and a + b <= HCI_COENERGY_DEGREE; returns its torque for c = 1. */
-static inline double hci_coenergy_add(hci_coenergy *w, int a, int b, bool cosine, double order, double c)
+/* From the term at `at` on, how many have its parameter: those of one monomial and one of sine and cosine. */
+static inline size_t hci_coenergy_run(const hci_effect *effect, size_t at)
 {
-    const bool is_next = w->next < w->waves && w->wave[w->next].order == order;
-    const size_t at = is_next ? w->next : hci_coenergy_wave_at(w, order);
-    const double k = w->wave[at].periods;
-    const double f = cosine ? w->wave[at].cosine : w->wave[at].sine;
-    const double slope = cosine ? -k * w->wave[at].sine : k * w->wave[at].cosine;
-    w->next = at + 1 < w->waves ? at + 1 : 0;
-    if (w->monomial.d != a || w->monomial.q != b) hci_coenergy_go_on(w, a, b);
-    w->monomial.value += c * f;
-    w->monomial.slope += c * slope;
-    w->monomial.curvature -= c * k * k * f;
-    return slope * w->monomial.g + w->pole_pairs * f * w->monomial.rg;
+    size_t end = at + 1;
+    while (end < effect->count && effect->term[end].parameter == effect->term[at].parameter)
+        ++end;
+    return end - at;
+}
+
+/* Adds c f g of `count` terms with c = scale × value, a, b >= 0 and a + b <= HCI_COENERGY_DEGREE.
+ * by_value: out, the torque of each for a value of 1, or NULL. */
+static inline void hci_coenergy_add(hci_coenergy *w, const hci_coenergy_kind *kind,
+                                    const hci_effect_term *term, size_t count, double *by_value)
+{
+    if (w->monomial.d != kind->d || w->monomial.q != kind->q) hci_coenergy_go_on(w, kind->d, kind->q);
+    hci_coenergy_monomial m = w->monomial; /* a copy, which need not be in memory from one term to the next */
+    for (size_t t = 0; t < count; ++t) {
+        const double c = kind->scale * term[t].value;
+        const bool is_next = w->next < w->waves && w->wave[w->next].order == term[t].order;
+        const size_t at = is_next ? w->next : hci_coenergy_wave_at(w, term[t].order);
+        const double k = w->wave[at].periods;
+        const double f = kind->cosine ? w->wave[at].cosine : w->wave[at].sine;
+        const double slope = kind->cosine ? -k * w->wave[at].sine : k * w->wave[at].cosine;
+        w->next = at + 1 < w->waves ? at + 1 : 0;
+        m.value += c * f;
+        m.slope += c * slope;
+        m.curvature -= c * k * k * f;
+        if (by_value) by_value[t] = kind->scale * (slope * m.g + w->pole_pairs * f * m.rg);
+    }
+    w->monomial = m;
 }
 
 /* Adds torque, its derivatives and ∂²W'/∂i² to *sum. */

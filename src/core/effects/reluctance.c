@@ -25,13 +25,11 @@ static void torque_of_all(const hci_effect *effect, const hci_machine *machine, 
 {
     hci_coenergy w;
     hci_coenergy_begin(&w, machine->pole_pairs, truth, 1.0);
-    for (size_t k = 0; k < effect->count; ++k) {
-        const hci_effect_term *term = &effect->term[k];
-        const int q = (int)(term->parameter / 2);
-        const double scale = q == 1 ? 1.5 : 0.75;
-        const double by =
-            hci_coenergy_add(&w, 2 - q, q, term->parameter % 2 == 1, term->order, scale * term->value);
-        if (by_value) by_value[k] = scale * by;
+    for (size_t k = 0, count; k < effect->count; k += count) {
+        const int parameter = (int)effect->term[k].parameter, q = parameter / 2;
+        const hci_coenergy_kind kind = {2 - q, q, parameter % 2 == 1, q == 1 ? 1.5 : 0.75};
+        count = hci_coenergy_run(effect, k);
+        hci_coenergy_add(&w, &kind, &effect->term[k], count, by_value ? &by_value[k] : NULL);
     }
     hci_coenergy_end(&w, sum);
 }

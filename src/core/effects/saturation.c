@@ -37,25 +37,35 @@ static const hci_effect_parameter PARAMETER[] = {
 
 enum { REFERENCE_CURRENT = sizeof PARAMETER / sizeof *PARAMETER - 1 };
 
-/* ∂T/∂I_0 = −Σ (a + b) T_k / I_0 */
-static void torque_of_all(const hci_effect *effect, const hci_machine *machine, const hci_sample *truth,
-                          hci_effect_torque *sum, double *by_value)
+/* ∂T/∂I_0 = −Σ (a + b) T_k / I_0; by_value: those of the others are there. */
+static void fill_by_reference(const hci_effect *effect, double reference_A, double *by_value)
 {
-    const double reference_A = hci_effect_value(effect, REFERENCE_CURRENT);
     double by_reference = 0.0;
-    hci_coenergy w;
-    hci_coenergy_begin(&w, machine->pole_pairs, truth, reference_A);
     for (size_t k = 0; k < effect->count; ++k) {
         const hci_effect_term *term = &effect->term[k];
         if (term->parameter == REFERENCE_CURRENT) continue;
         const int a = MONOMIAL[term->parameter / 2].a, b = MONOMIAL[term->parameter / 2].b;
-        const double by = hci_coenergy_add(&w, a, b, term->parameter % 2 == 1, term->order, term->value);
-        by_reference -= (a + b) * term->value * by / reference_A;
-        if (by_value) by_value[k] = by;
+        by_reference -= (a + b) * term->value * by_value[k] / reference_A;
+    }
+    for (size_t k = 0; k < effect->count; ++k)
+        if (effect->term[k].parameter == REFERENCE_CURRENT) by_value[k] = by_reference;
+}
+
+static void torque_of_all(const hci_effect *effect, const hci_machine *machine, const hci_sample *truth,
+                          hci_effect_torque *sum, double *by_value)
+{
+    const double reference_A = hci_effect_value(effect, REFERENCE_CURRENT);
+    hci_coenergy w;
+    hci_coenergy_begin(&w, machine->pole_pairs, truth, reference_A);
+    for (size_t k = 0, count; k < effect->count; k += count) {
+        const size_t parameter = effect->term[k].parameter, monomial = parameter / 2;
+        count = hci_coenergy_run(effect, k);
+        if (parameter == REFERENCE_CURRENT) continue;
+        const hci_coenergy_kind kind = {MONOMIAL[monomial].a, MONOMIAL[monomial].b, parameter % 2 == 1, 1.0};
+        hci_coenergy_add(&w, &kind, &effect->term[k], count, by_value ? &by_value[k] : NULL);
     }
     hci_coenergy_end(&w, sum);
-    for (size_t k = 0; by_value && k < effect->count; ++k)
-        if (effect->term[k].parameter == REFERENCE_CURRENT) by_value[k] = by_reference;
+    if (by_value) fill_by_reference(effect, reference_A, by_value);
 }
 
 /* From how many powers one is chosen. */

@@ -48,7 +48,7 @@ static void fill_spectrum(const hci_evaluation *e, double angle_rad, double weig
     const double s1 = sin(angle_rad / (double)e->setup->period_turns),
                  c1 = cos(angle_rad / (double)e->setup->period_turns);
     double s = 0.0, c = weight;
-    for (size_t n = 0; n < e->orders; ++n) {
+    for (size_t n = 0, orders = e->orders; n < orders; ++n) {
         const double next = s * c1 + c * s1;
         pair[2 * n] = s;
         pair[2 * n + 1] = c;
@@ -126,8 +126,10 @@ static void add_part(const hci_evaluation *e, const hci_instant *from, const hci
                      hci_integrals *x)
 {
     const double h = share * (to->time_s - from->time_s), late = 0.5 * h * share, early = h - late;
-    for (size_t k = 0; k < e->values; ++k)
-        x->integral[k] += early * e->before[k] + late * e->now[k];
+    const double *before = e->before, *now = e->now;
+    double *integral = x->integral;
+    for (size_t k = 0, values = e->values; k < values; ++k)
+        integral[k] += early * before[k] + late * now[k];
     for (int k = 0; k < 2; ++k)
         x->electrical_J += from->v[k] * (early * from->i[k] + late * to->i[k]);
 }
