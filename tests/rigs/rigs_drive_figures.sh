@@ -6,3 +6,4 @@
 use_plain_build # with sanitizers it takes minutes
 
 python3 "$1/tests/rigs/loop/drive_figures.py" "$hci_solve" "$1" || fail "docs/drive.md has other figures"
+finish

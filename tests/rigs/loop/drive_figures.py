@@ -106,8 +106,8 @@ def saturated(page, target):
         out.write("inductance_d,80,mH,declared\ninductance_q,80,mH,declared\n")
     page.run("solve", folder, "--target", target, "--auto", "-o", f"{page.work}/with")
     got = page.ripple(folder, f"{page.work}/with", "data/drive/machine_c_10kHz.csv", "20,80,320")
-    for key, low, high in (((20, "compensation"), 0.075, 0.085), ((80, "compensation"), 0.385, 0.395), ((80, "table"), 4.25, 4.35),
-                           ((320, "compensation"), 1.45, 1.55)):
+    for key, low, high in (((20, "compensation"), 0.0015, 0.0025), ((80, "compensation"), 0.0025, 0.0035), ((80, "table"), 4.25, 4.35),
+                           ((320, "compensation"), 0.0545, 0.0555)):
         page.says(f"saturated machine C, {key[1]} at {key[0]} rpm", got[key], low, high)
     shutil.copytree(folder, f"{page.work}/without")
     os.remove(f"{page.work}/without/effects.csv")
@@ -124,7 +124,7 @@ def faster(page, a):
 
 def circle(page, target):
     drives = {"hexagon": "data/drive/machine_c_10kHz.csv", "circle": page.drive("machine_c_10kHz.csv", {"modulation": "circle,"})}
-    for solved, low, high in (("hexagon", 11.75, 11.85), ("circle", 0.105, 0.115)):
+    for solved, low, high in (("hexagon", 4.05, 4.15), ("circle", 0.115, 0.125)):
         page.run("solve", "data/machine_c", "--target", target, "--drive", drives[solved], "--speed", 600, "-o", f"{page.work}/{solved}")
         got = page.ripple("data/machine_c", f"{page.work}/{solved}", drives["circle"], "600")
         page.says(f"solved for the {solved}, in the circle at 600 rpm", got[600, "feedforward"], low, high)
