@@ -34,9 +34,14 @@ class Plant:
         return [(m, self.emf_at(self.pole_pairs * m), self.cogging_at(self.pole_pairs * m)) for m in steps]
 
 
+SIN_THIRD = math.sin(2 * math.pi / 3)
+
+
 def phases(theta, d, q):
-    """Phase currents in the frame of docs/theory.md: ia = iq sin(theta) - id cos(theta)."""
-    return [q * math.sin(theta - 2 * math.pi * s / 3) - d * math.cos(theta - 2 * math.pi * s / 3) for s in range(3)]
+    """Phase currents in the frame of docs/theory.md: ia = iq sin(theta) - id cos(theta), ib and ic a third of a turn later each."""
+    sine, cosine = math.sin(theta), math.cos(theta)
+    a, across = q * sine - d * cosine, q * cosine + d * sine
+    return a, -0.5 * a - SIN_THIRD * across, -0.5 * a + SIN_THIRD * across
 
 
 class Mounted:
@@ -56,7 +61,11 @@ class Mounted:
         return (a, b, c) if self.direction == 1 else (a, c, b)
 
     def torques(self, own_q, angles):
-        return [sum(e * i for e, i in zip(emf, self.currents(m, own_q))) + cogging for m, emf, cogging in self.plant.grid(angles)]
+        values = []
+        for m, emf, cogging in self.plant.grid(angles):
+            a, b, c = self.currents(m, own_q)
+            values.append(emf[0] * a + emf[1] * b + emf[2] * c + cogging)
+        return values
 
     def ripple(self, torque, angles=40009, constant=None):
         """Peak to peak, where the drive's own current makes what is missing of the mean torque. constant: by which it
