@@ -19,7 +19,8 @@ done
 
 # Folders within a folder: of a diagnosis with new currents these were the older ones, or none, beside the newer findings.
 run 0 simulate data/machine_a data/drive/driven.csv -q -o "$work/driven"
-printf 'file,role\ndriven/trajectory.csv,fit\n' >"$work/runs.csv"
+awk 'NR == 1 || NR % 32 == 0' "$work/driven/trajectory.csv" >"$work/driven/thinned.csv" # some 400 runs of it: what counts is what it writes
+printf 'file,role\ndriven/thinned.csv,fit\n' >"$work/runs.csv"
 printf 'order,amplitude_Nm,phase_rad\n0,1,1.5707963267948966\n' >"$work/target.csv"
 diagnose="diagnose data/machine_a --runs $work/runs.csv"
 run 0 $diagnose --target "$work/target.csv" -q -o "$work/older_diagnosis"
