@@ -100,7 +100,7 @@ static void test_a_failing_allocation_is_memory_that_is_short(void)
     for (long at = 1; at <= all; at += at + ROWS < all ? ONE_OF : 1) {
         remove(files_path("fleet.sqlite"));
         const hci_status status = store(at);
-        char what[64];
+        char what[80];
         snprintf(what, sizeof what, "allocation %ld of %ld, status %d", at, all, (int)status);
         TEST_ASSERT_TRUE_MESSAGE(status == HCI_OK || status == HCI_ERROR_MEMORY,
                                  note.text[0] ? note.text : what);
