@@ -48,6 +48,10 @@ cd "$work/copy"
 # Paths from here on, so that ccache has what was built in another folder. Tests of host are not run below, and not built.
 export CCACHE_BASEDIR="$PWD" CCACHE_NOHASHDIR=1
 find tests/host -name 'test_*.c' -delete
+# So that it has build/release too, which tests/CMakeLists.txt has built in build/dev/nested/all: as deep, with the same flags.
+mkdir -p build/dev/nested/release
+ln -s dev/nested/release build/release
+sed -i '/"Optimised, as installed"/,/}/s/"HCI_BUILD_HOST": "ON"/&, "HCI_WERROR": "ON", "CMAKE_POSITION_INDEPENDENT_CODE": "ON"/' CMakePresets.json
 
 echo "--- $start"
 sh -c "$start"
