@@ -1,5 +1,5 @@
-/* U of a solution against sampled torque; the residual by run and order; mean and extremes over one turn of a
- * simulated drive. */
+/* U of a solution against sampled torque; the residual by run and order; amplitudes by order; a log over the
+ * time; mean and extremes over one turn of a simulated drive. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -206,6 +206,70 @@ static void test_map(void)
     TEST_ASSERT_NULL(strstr(picture, "b&#60;.csv"));
 }
 
+/* ---- amplitudes by order ---- */
+
+static const hci_plot_orders_data *orders;
+
+static void put_orders(hci_output *out)
+{
+    hci_plot_orders(out, &(hci_svg_box){58.0, 40.0, 462.0, 240.0}, orders);
+}
+
+/* The legend says before and after where there is something to compare, of a single order as well. */
+static void test_orders_that_are_compared(void)
+{
+    const hci_plot_order one[] = {{6.0, 0.4, 0.1, NAN, 0, 0}}, alone[] = {{6.0, NAN, 0.1, 0.05, 0, 0}};
+    orders = &(hci_plot_orders_data){one, 1, "Orders", "noise", false};
+    draw(put_orders);
+    TEST_ASSERT_NOT_NULL(strstr(picture, ">before</text>"));
+    TEST_ASSERT_NOT_NULL(strstr(picture, ">after</text>"));
+    TEST_ASSERT_NULL(strstr(picture, ">noise</text>"));
+    orders = &(hci_plot_orders_data){alone, 1, "Orders", "noise", false};
+    draw(put_orders);
+    TEST_ASSERT_NULL(strstr(picture, ">before</text>"));
+    TEST_ASSERT_NOT_NULL(strstr(picture, ">torque</text>"));
+    TEST_ASSERT_NOT_NULL(strstr(picture, ">noise</text>"));
+}
+
+/* ---- a log ---- */
+
+static hci_run run;
+
+static void put_log(hci_output *out)
+{
+    hci_plot_log(out, &(hci_svg_box){58.0, 40.0, 462.0, 440.0}, &run);
+}
+
+/* A tenth of a second is as wide as the picture: its samples are in the first, the middle and the last of
+ * 480 columns. */
+static void test_a_short_log(void)
+{
+    static double time_s[] = {5.0, 5.0501, 5.1}, torque_Nm[] = {1.0, 2.0, 3.0}, current_A[9],
+                  speed_rad_per_s[] = {10.0, 20.0, 30.0};
+    static const double COLUMN[] = {0.5, 240.5, 479.5}, TOP[] = {40.0, 278.0};
+    run = (hci_run){.count = 3, .time_s = time_s, .speed_rad_per_s = speed_rad_per_s, .i_A = current_A};
+    run.torque_Nm = torque_Nm;
+    run.torque_source = HCI_TORQUE_MEASURED;
+    draw(put_log);
+    const char *at = picture;
+    for (int panel = 0; panel < 2; ++panel) {
+        double x, y[3];
+        int length;
+        at = strstr(at, "<polyline class=\"after\" points=\"");
+        TEST_ASSERT_NOT_NULL(at);
+        at = strstr(at, "points=\"") + strlen("points=\"");
+        for (int k = 0; k < 3; ++k, at += length) {
+            TEST_ASSERT_EQUAL_INT(2, sscanf(at, "%lf,%lf %n", &x, &y[k], &length));
+            TEST_ASSERT_DOUBLE_WITHIN(0.01, 58.0 + COLUMN[k] * (462.0 - 58.0) / 480.0, x);
+        }
+        TEST_ASSERT_EQUAL('"', *at);
+        TEST_ASSERT_TRUE(y[0] > TOP[panel] + 0.5 * 162.0 && y[2] >= TOP[panel] && y[2] < y[0] - 0.5 * 162.0);
+        TEST_ASSERT_TRUE(y[0] <= TOP[panel] + 162.0);
+        TEST_ASSERT_DOUBLE_WITHIN(0.02, 0.5 * (y[0] + y[2]), y[1]);
+    }
+    TEST_ASSERT_NULL(strstr(at, "<polyline class=\"after\" points=\""));
+}
+
 /* ---- one turn ---- */
 
 static hci_turn_means turn;
@@ -269,6 +333,8 @@ int main(void)
     RUN_TEST(test_system_is_that_of_the_torque);
     RUN_TEST(test_no_system_angle_by_angle);
     RUN_TEST(test_map);
+    RUN_TEST(test_orders_that_are_compared);
+    RUN_TEST(test_a_short_log);
     RUN_TEST(test_turn);
     return UNITY_END();
 }

@@ -136,6 +136,34 @@ static void test_colours_of_a_map(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, level_of(2, 2) - level_of(2, 1), level_of(2, 3) - level_of(2, 2));
 }
 
+/* The number beside colour n of panel 2, the peak current, as it is written. */
+static void check_level_text(int n, const char *expected)
+{
+    char key[80];
+    snprintf(key, sizeof key, "<text class=\"small quiet\" x=\"%.2f\" y=\"416.00\">%s</text>",
+             70.0 + 2.0 * 434.0 + 35.0 * n, expected);
+    text_has(key, picture_text);
+}
+
+/* Ripple from 0.02 to 10 % is written as it is; peaks up to a million have one notation, of the largest
+ * number in the legend and as fine as their steps. */
+static void test_numbers_of_a_legend(void)
+{
+    static const double PEAK_A[] = {5.5e5, 7e5, 8e5, 1e6};
+    const hci_grid s = grid_map();
+    for (size_t k = 0; k < 4; ++k)
+        grid_row[k].best.peak_A = PEAK_A[k];
+    grid_row[3].best.T_ripple_percent = 19.0;
+    begin_and_end(hci_plot_map, &s);
+    check_level_text(0, "0.55e6");
+    check_level_text(2, "0.65e6");
+    check_level_text(8, "0.95e6");
+    text_has(">0.02</text>", picture_text);
+    text_has(">10</text>", picture_text);
+    text_lacks("0.020<", picture_text);
+    text_lacks("heat10", picture_text);
+}
+
 static void test_limits_and_words_of_a_map(void)
 {
     static const char *const KIND[] = {"kind0", "kind1", "kind3", "kind5", "kind2", "band"};
@@ -339,6 +367,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_cells_of_a_map_meet_halfway);
     RUN_TEST(test_colours_of_a_map);
+    RUN_TEST(test_numbers_of_a_legend);
     RUN_TEST(test_limits_and_words_of_a_map);
     RUN_TEST(test_one_link_of_a_map);
     RUN_TEST(test_panels_of_a_trade_off);
