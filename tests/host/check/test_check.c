@@ -329,6 +329,36 @@ static void test_friction_does_not_drive(void)
     TEST_ASSERT_EQUAL(0, (int)check.findings);
 }
 
+/* A shaft that gets faster and slower, 12 rad/s and 9 about it, by an i_q of that sign, on top of its
+ * friction. */
+static void check_swinging_speed(double sign)
+{
+    static char text[60000];
+    static const char *run[1];
+    size_t used = (size_t)snprintf(text, sizeof text, "time_s,theta_m_rad,speed_rad_per_s,iq_A\n");
+    for (int k = 0; k < 1000; ++k) {
+        const double t = 2e-3 * k, speed = 12.0 + 9.0 * sin(6.0 * t);
+        const double iq_A = sign * (0.5 + 2.0 * cos(6.0 * t)) + 0.02 * sin(7.7 * k);
+        used += (size_t)snprintf(text + used, sizeof text - used, "%.3f,%.5f,%.4f,%.5f\n", t,
+                                 12.0 * t - 1.5 * cos(6.0 * t), speed, iq_A);
+    }
+    write_file("swing.csv", text);
+    run[0] = path[0];
+    write_machine("name,value,unit\npole_pairs,5,1\n", "amplitude_Nm_per_A", 0.1, 0.0);
+    hci_check_files(files_root, run, 1, &(hci_run_options){0}, &check, &note);
+}
+
+static void test_what_accelerates_is_a_motor(void)
+{
+    check_swinging_speed(1.0);
+    TEST_ASSERT_EQUAL_DOUBLE(1.0, evidence("motion_way"));
+    TEST_ASSERT_EQUAL(HCI_CHECK_CONSISTENT, check.verdict);
+    remove_files();
+    check_swinging_speed(-1.0);
+    TEST_ASSERT_EQUAL_DOUBLE(-1.0, evidence("motion_way"));
+    expect_only("current_sign");
+}
+
 /* ---- slips of the tables, in numbers worked out by hand for k_e = 0.1 V·s/rad and 4 pole pairs */
 
 static void test_slips_of_the_emf(void)
@@ -1587,6 +1617,7 @@ int main(void)
     RUN_TEST(test_a_holding_map_knows_the_pole_pairs);
     RUN_TEST(test_holding_currents_commutate);
     RUN_TEST(test_friction_does_not_drive);
+    RUN_TEST(test_what_accelerates_is_a_motor);
     RUN_TEST(test_slips_of_the_emf);
     RUN_TEST(test_an_emf_in_volts);
     RUN_TEST(test_slips_of_machine_csv);

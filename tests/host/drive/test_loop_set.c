@@ -156,6 +156,19 @@ static void test_small_orders_are_left_out_and_told(void)
     }
 }
 
+/* Order 901 makes 900 in the rotor frame, near the 1024 that a turn is sampled for: of a current that is too
+ * small to matter, and a voltage 900 ω L i of 7e-3 of E/p, which is not. */
+static void test_a_high_order_is_kept_by_its_voltage(void)
+{
+    const hci_wave wave[] = {{1.0, 1, 5.0, 0.0}, {901.0, 1, 0.9e-4 * 5.0, 0.0}};
+    const hci_loop_level level = {0.5, wave, 2};
+    machine.inductance_d_H = machine.inductance_q_H = 1e-3;
+    make(&level, 1, 0.0, 0.0);
+    TEST_ASSERT_EQUAL_UINT32(2, set.loop.order_count);
+    TEST_ASSERT_EQUAL_DOUBLE(900.0, hci_loop_set_highest_order(&set));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, set.share_left_out);
+}
+
 /* ---- where they end ---- */
 
 /* 0.8 of half the sampling is the highest frequency; an order is whole up to 0.9 of that, or to the speed
@@ -373,6 +386,7 @@ int main(void)
     RUN_TEST(test_orders_of_currents_and_voltages);
     RUN_TEST(test_fractional_orders);
     RUN_TEST(test_small_orders_are_left_out_and_told);
+    RUN_TEST(test_a_high_order_is_kept_by_its_voltage);
     RUN_TEST(test_ends_by_the_sampling);
     RUN_TEST(test_ends_by_the_voltage);
     RUN_TEST(test_constants_of_the_loop);

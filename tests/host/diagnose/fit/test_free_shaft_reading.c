@@ -57,6 +57,19 @@ static void test_averaged_over_the_same_window(void)
     TEST_ASSERT_DOUBLE_WITHIN(2e-3, 1.4826 * 0.135 * 1.5 * K_NM_PER_A / sqrt(2.0), within_Nm); /* median */
 }
 
+/* Of samples with |cos| above 1/√2 alone the median of |cos| is cos(π/8). */
+static void test_within_a_slope_of_samples_that_tell(void)
+{
+    double within_Nm = 0.0;
+    record_swing();
+    search_start();
+    for (size_t k = 0; k < N; ++k)
+        if (fabs(cos(SWING * (double)k)) < sqrt(0.5)) dataset.samples.sample[k].count = 0.0;
+    TEST_ASSERT_EQUAL_INT(
+        HCI_OK, hci_within_slope_find(&dataset.regression, dataset.regression.declared, &within_Nm, &note));
+    TEST_ASSERT_DOUBLE_WITHIN(2e-3, 1.4826 * 0.135 * 1.5 * K_NM_PER_A * cos(REF_PI / 8.0), within_Nm);
+}
+
 /* A coast from 140 to 10 rad/s by a current of −B/(1.5·0.2 N·m/A), over a cogging torque of order 12, 36
  * periods in a turn, that turns by 5 rad from sample to sample when it begins. The motion is that of the
  * torque, in hundredths of a sample. */
@@ -143,6 +156,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_averaged_over_the_same_window);
+    RUN_TEST(test_within_a_slope_of_samples_that_tell);
     RUN_TEST(test_faster_than_sampled);
     RUN_TEST(test_work_of_a_coast);
     RUN_TEST(test_samples_that_tell_nothing);

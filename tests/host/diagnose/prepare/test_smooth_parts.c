@@ -187,6 +187,30 @@ static void test_lists_of_periods(void)
                 }
 }
 
+/* Of four pole pairs: 12 periods in a turn are an electrical order, in which the turn has no part, and of the
+ * turn all others, up to the most that there is room for. */
+static void test_waves_of_the_period_and_of_the_turn(void)
+{
+    static double value[N], theta_m_rad[N];
+    static const size_t WAVES[] = {5, 7, 12, 13};
+    const double *const axis[] = {value};
+    hci_standing_waves q = {.theta_m_rad = theta_m_rad, .value = axis, .n = N, .axes = 1, .apart = 1};
+    size_t found[MOST_PERIODS], count = 0;
+    for (size_t k = 0; k < N; ++k) {
+        theta_m_rad[k] = sample[k].reading.theta_m_rad;
+        value[k] = 0.1 * ref_normal(&seed);
+        for (int j = 0; j < 4; ++j)
+            value[k] += 0.1 * sin((double)WAVES[j] * theta_m_rad[k] + 0.7);
+    }
+    for (int turns = 0; turns < 2; ++turns) {
+        static const size_t FOUND[] = {12, 5, 7, 13};
+        TEST_ASSERT_TRUE(waves_find(&q, P, turns, 90.0, found, &count));
+        TEST_ASSERT_EQUAL_UINT64(turns ? 4 : 1, count);
+        for (size_t j = 0; j < count; ++j)
+            TEST_ASSERT_EQUAL_UINT64(FOUND[j], found[j]);
+    }
+}
+
 static void test_a_series_and_its_slopes(void)
 {
     const size_t periods[] = {1, 4, 11};
@@ -247,6 +271,7 @@ int main(void)
     RUN_TEST(test_errors_are_put_back);
     RUN_TEST(test_a_current_that_is_steady);
     RUN_TEST(test_lists_of_periods);
+    RUN_TEST(test_waves_of_the_period_and_of_the_turn);
     RUN_TEST(test_a_series_and_its_slopes);
     RUN_TEST(test_orders_of_noise_leave);
     RUN_TEST(test_the_least_samples_of_a_series);
