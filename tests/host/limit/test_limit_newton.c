@@ -27,6 +27,7 @@ static hci_solution solution;
 typedef enum { USED, REFUSED, FAR_OFF } beginning;
 static beginning mode;
 static int found, left;
+static int rested, again; /* where it ended last it is at rest; and is asked once more with an answer */
 
 /* From −2 x, which keeps no limit. */
 static hci_status begin_far_off(const hci_limit_build *build, const hci_cone_answer *answer,
@@ -51,6 +52,10 @@ hci_status hci_limit_newton(const hci_limit_build *build, const hci_cone_answer 
     const hci_status status = mode == USED      ? newtons_method(build, answer, last, optimum)
                               : mode == FAR_OFF ? begin_far_off(build, answer, last, optimum)
                                                 : HCI_OK;
+    static bool at_rest;
+    again += answer && at_rest;
+    at_rest = !answer && optimum->is_settled;
+    rested += at_rest;
     found += optimum->is_settled;
     left += answer && !optimum->is_settled;
     return status;
@@ -95,7 +100,7 @@ static void solve(beginning how)
 {
     hci_note note = {{0}};
     mode = how;
-    found = left = 0;
+    found = left = rested = again = 0;
     hci_solution_release(&solution);
     const hci_status status = hci_solve(&machine, &options, &solution, &note);
     TEST_ASSERT_TRUE_MESSAGE(status <= HCI_NOT_REACHED, note.text);
@@ -154,6 +159,25 @@ static void test_a_beginning_far_off_leaves_the_answer(void)
     TEST_ASSERT_GREATER_THAN(0, left);
 }
 
+/* Of a torque that is not linear programs follow each other: one that is at rest where the last one ended is
+ * not solved. The inductances of three alike phases: L' = 2 p l sin(2θ − φ). */
+static void test_where_it_rests_nothing_is_solved(void)
+{
+    static const int THIRDS[HCI_PHASE_MATRIX] = {
+        [HCI_AA] = 0, [HCI_BB] = 2, [HCI_CC] = 1, [HCI_AB] = 1, [HCI_BC] = 0, [HCI_CA] = 2};
+    static hci_inductance_slope slope = {.order = 2.0};
+    for (int k = 0; k < HCI_PHASE_MATRIX; ++k) {
+        slope.sine[k] = 6.0 * 0.3e-3 * cos(2.0 * REF_PI / 3.0 * THIRDS[k]);
+        slope.cosine[k] = -6.0 * 0.3e-3 * sin(2.0 * REF_PI / 3.0 * THIRDS[k]);
+    }
+    machine.model.slope = &slope;
+    machine.model.slope_count = 1;
+    draw_machine(1);
+    solve(USED);
+    TEST_ASSERT_GREATER_THAN(0, rested);
+    TEST_ASSERT_EQUAL(0, again);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -161,5 +185,6 @@ int main(void)
     RUN_TEST(test_the_smallest_swing);
     RUN_TEST(test_a_vector_in_a_circle);
     RUN_TEST(test_a_beginning_far_off_leaves_the_answer);
+    RUN_TEST(test_where_it_rests_nothing_is_solved);
     return UNITY_END();
 }
