@@ -1,4 +1,6 @@
-/* The period after which everything repeats: each order counts, wherever it stands. */
+/* The period after which everything repeats: each order counts, wherever it stands; and the orders of
+ * currents that are found at each angle of it. */
+#include "host/solve/pointwise.h"
 #include "host/solve/task.h"
 
 #include <math.h>
@@ -179,6 +181,29 @@ static void test_the_temperature_of_magnets(void)
     TEST_ASSERT_TRUE(isnan(hci_magnet_temperature_C(&options)));
 }
 
+/* A sinusoidal back-EMF of 0.1 V·s/rad makes cos 511θ of i = T e/(e·e): 0.2/0.15 (sin 512θ − sin 510θ)/2 A
+ * per 0.2 N·m. Orders up to 512 are taken, of as many turns as there are. */
+static void test_orders_found_at_each_angle(void)
+{
+    const double half_A = 0.5 * 0.2 / 0.15;
+    machine = (hci_machine){.pole_pairs = 4, .back_emf = emf, .back_emf_count = 1};
+    wanted[0] = (hci_target_order){{0.0, 0.0, 3.0}, 1.0};
+    wanted[1] = (hci_target_order){{511.0, 0.0, 0.2}, 1.0};
+    target.count = 2;
+    for (task.period_turns = 1; task.period_turns <= 3; ++task.period_turns) {
+        const size_t top = 512 * task.period_turns, below = 510 * task.period_turns;
+        hci_answer answer = {0};
+        hci_solution solution = {0};
+        TEST_ASSERT_EQUAL(HCI_OK, hci_pointwise_answer(&task, &answer, &solution, NULL));
+        TEST_ASSERT_EQUAL_UINT64(3 * (top + 1), answer.set.count);
+        TEST_ASSERT_EQUAL_DOUBLE(512.0, answer.set.component[answer.set.count - 1].order);
+        const double *rest = answer.x + 2 * answer.set.count; /* sine and cosine of each component */
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, half_A, rest[2 * (3 * top)]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, -half_A, rest[2 * (3 * below + 1)]);
+        hci_answer_release(&answer);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -191,5 +216,6 @@ int main(void)
     RUN_TEST(test_a_task_of_a_model);
     RUN_TEST(test_a_task_that_is_stopped);
     RUN_TEST(test_the_temperature_of_magnets);
+    RUN_TEST(test_orders_found_at_each_angle);
     return UNITY_END();
 }
