@@ -416,6 +416,31 @@ static void test_points_of_other_numbers_are_refused(void)
     hci_grid_release(&one);
 }
 
+/* Each number of a point counts: one with another torque, speed, link or limit is of another grid. */
+static void test_points_of_another_grid_are_refused(void)
+{
+    hci_grid one;
+    hci_grid_inputs inputs = {.count = 0};
+    hci_note note = {{0}};
+    begin(&one);
+    one.done[0] = one.done[2] = true;
+    for (size_t k = 0; k < one.plan.count; ++k)
+        one.row[k].point = one.plan.point[k];
+    TEST_ASSERT_EQUAL(HCI_OK, hci_grid_keep_points(&one, &inputs, files_path("kept"), &note));
+    for (int field = 0; field < 6; ++field) {
+        hci_grid two;
+        begin(&two);
+        hci_grid_point *p = &two.plan.point[2];
+        double *const at[] = {&p->torque_Nm, &p->speed_rad_per_s, &p->link_V, &p->limit_current_A,
+                              &p->limit_copper};
+        if (field < 5) *at[field] = 7.25;
+        TEST_ASSERT_EQUAL(field < 5 ? HCI_ERROR_INPUT : HCI_OK,
+                          hci_grid_take_points(&two, &inputs, files_path("kept"), true, &note));
+        hci_grid_release(&two);
+    }
+    hci_grid_release(&one);
+}
+
 static void test_points_of_other_inputs_are_refused(void)
 {
     hci_grid one, two;
@@ -454,6 +479,7 @@ int main(void)
     RUN_TEST(test_long_reasons_end_between_characters);
     RUN_TEST(test_points_of_other_numbers_are_refused);
     RUN_TEST(test_limits_are_said_phase_by_phase);
+    RUN_TEST(test_points_of_another_grid_are_refused);
     RUN_TEST(test_points_of_other_inputs_are_refused);
     return UNITY_END();
 }
