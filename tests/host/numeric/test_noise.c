@@ -58,6 +58,26 @@ static hci_noise find(size_t n, bool closed, double floor)
     return noise;
 }
 
+/* What stands in the workspace before does not matter. */
+static void test_a_workspace_that_was_used(void)
+{
+    enum { LENGTH = 1000 };
+    double *work = malloc(hci_noise_workspace(LENGTH) * sizeof *work);
+    TEST_ASSERT_NOT_NULL(work);
+    for (size_t k = 0; k < LENGTH; ++k)
+        x[k] = ref_normal(&seed);
+    for (int closed = 0; closed < 2; ++closed) {
+        hci_noise found[2];
+        for (int used = 0; used < 2; ++used) {
+            for (size_t k = 0; k < hci_noise_workspace(LENGTH); ++k)
+                work[k] = used ? 1e9 : 0.0;
+            hci_noise_find(x, LENGTH, closed, 0.0, &found[used], work);
+        }
+        TEST_ASSERT_EQUAL_MEMORY(&found[0], &found[1], sizeof found[0]);
+    }
+    free(work);
+}
+
 static const process WHITE = {0.0, 0.0, 0.02};
 static const process SLOW = {0.8, 0.0, 0.02};       /* a low pass */
 static const process RINGING = {1.2, -0.72, 0.003}; /* poles 0.85 exp(±0.78 j) */
@@ -230,6 +250,7 @@ static void test_noise_of_neighbours(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_a_workspace_that_was_used);
     RUN_TEST(test_white_noise);
     RUN_TEST(test_coloured_noise);
     RUN_TEST(test_lines_are_not_noise);

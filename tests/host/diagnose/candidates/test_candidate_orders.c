@@ -87,6 +87,16 @@ static void test_places_that_are_read_twice(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.02 * SAMPLES / P, 0.48 * SAMPLES / P, orders.resolved);
 }
 
+/* Samples in a turn are a mean over all turns: two of a hundred, and three of two hundred. */
+static void test_turns_of_fewer_samples(void)
+{
+    for (size_t k = 0; k < SAMPLES; ++k)
+        sample[k].reading.theta_m_rad *= 2.0;
+    find(1);
+    TEST_ASSERT_DOUBLE_WITHIN(0.01 * SAMPLES / P, 0.48 * (2.0 * 100.0 + 3.0 * SAMPLES) / 5.0 / P,
+                              orders.resolved);
+}
+
 /* A wave with so many periods in a turn, with the size of some law of the current. */
 static void hide(size_t periods, double amplitude_Nm, double exponent)
 {
@@ -348,6 +358,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_places_that_are_read_twice);
+    RUN_TEST(test_turns_of_fewer_samples);
     RUN_TEST(test_what_an_order_explains);
     RUN_TEST(test_means_have_no_orders);
     RUN_TEST(test_noise_stands_out_at_the_rate_of_the_limit);

@@ -88,6 +88,20 @@ static void test_one_small_one_does_not(void)
     TEST_ASSERT_NULL(found_to_cancel());
 }
 
+/* Terms that are next to nothing as well, and they say nothing where they do not. */
+static void test_cancelling_has_no_size(void)
+{
+    for (int sign = -1; sign <= 1; sign += 2) {
+        record_all(0.1);
+        add_term("back_emf", "sine", 5.0, 3e-7);
+        add_term("back_emf", "sine", 7.0, sign * 2.9e-7);
+        const char *found = found_to_cancel();
+        TEST_ASSERT_EQUAL_STRING(sign > 0 ? "back_emf" : "none", found ? found : "none");
+        tearDown();
+        setUp();
+    }
+}
+
 /* An i_d that was varied shows each of them. */
 static void test_what_is_told_apart_does_not(void)
 {
@@ -139,6 +153,7 @@ int main(void)
     RUN_TEST(test_orders_of_the_back_emf_that_cancel);
     RUN_TEST(test_orders_that_add_up_do_not);
     RUN_TEST(test_one_small_one_does_not);
+    RUN_TEST(test_cancelling_has_no_size);
     RUN_TEST(test_what_is_told_apart_does_not);
     RUN_TEST(test_inductances_along_a_curve_are_not_asked);
     RUN_TEST(test_a_series_does_not);
