@@ -119,11 +119,26 @@ static void test_the_remedy_is_of_the_choice(void)
     TEST_ASSERT_TRUE(solution.current.count <= 4);
 }
 
+/* Orders are left out of rough steps that are bounded, from a best answer, and where the worst order counts.
+ */
+static void test_orders_that_act_on_no_step(void)
+{
+    double x = 1.0;
+    for (int lacks = 0; lacks < 5; ++lacks) {
+        hci_wishes wishes = {.is_coarse = lacks != 1};
+        wishes.program.minimise = lacks == 2 ? HCI_MINIMISE_RMS : HCI_MINIMISE_WORST;
+        const path p = {
+            .wishes = &wishes, .best = lacks == 3 ? NULL : &x, .radius_A = lacks == 4 ? 0.0 : 0.1};
+        TEST_ASSERT_EQUAL(lacks == 0, has_idle_orders(&p));
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_currents_that_rest_say_nothing);
     RUN_TEST(test_steps_that_end_are_said);
     RUN_TEST(test_the_remedy_is_of_the_choice);
+    RUN_TEST(test_orders_that_act_on_no_step);
     return UNITY_END();
 }
