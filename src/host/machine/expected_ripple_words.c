@@ -190,7 +190,9 @@ static void say_origin(const hci_words *w, const hci_expected_ripple *e)
     if (!hci_machine_origin_is_doubtful(&e->origin) && e->origin.left_means_Nm > 0.0)
         hci_words_say(w,
                       " The ripple of the recordings is explained, and of their mean torques %s N·m rms are "
-                      "not: the mean is known no better than that.",
+                      "not: the mean is known no better than that, and the torque per ampere is taken to be "
+                      "within 20 %% of "
+                      "the declared one.",
                       number(e->origin.left_means_Nm, false, Nm));
     if (isfinite(e->unbelievable_order))
         hci_words_say(w,

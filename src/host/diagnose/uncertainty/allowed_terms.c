@@ -177,6 +177,10 @@ static void known_narrow(const hci_coenergy_sizes *found, const hci_candidate *x
     t->centre[at] = -departure;
 }
 
+/* Of terms of the mean where means tell nothing: how far the mean is open is said by the torque per ampere.
+ */
+#define UNTOLD 1e30
+
 /* One term of a candidate: a term of the model keeps what was expected of it, unless that is by the width;
  * all others are expected where they are. */
 static void term_fill(const hci_regression *e, const hci_candidates *fitted, const hci_coenergy_sizes *found,
@@ -199,6 +203,7 @@ static void term_fill(const hci_regression *e, const hci_candidates *fitted, con
     t->power[at] = x->coenergy_unit > 0.0 ? x->power : 0;
     const bool along_q = t->of_mean[at] && !t->by_direct[at] && x->power == OF_I_Q_CUBED && !x->unlike;
     t->iron[at] = along_q && isnan(t->fixed[at]) ? found->along_q : 0.0;
+    if (e->free_means && t->of_mean[at] && !known) t->fixed[at] = UNTOLD;
 }
 
 /* Room for so many terms; on failure what there is waits for release. */

@@ -50,16 +50,51 @@ static bool direct_is_error(const finding *f, const hci_regression *e, size_t ru
     return sqrt(sum) <= MISREAD_D * f->terms.largest_current_A * sqrt(count);
 }
 
+/* The torque per ampere, as the fundamental of the back-EMF. */
+static hci_candidate constant_term(void)
+{
+    hci_candidate x = {.count = 1, .in = true};
+    for (size_t t = 0; t < hci_candidate_types() && !x.type; ++t)
+        for (size_t k = 0; k < hci_candidate_type(t)->parameter_count && !x.type; ++k)
+            if (hci_candidate_type(t)->parameter[k].traits & HCI_PARAMETER_WITH_LOAD) {
+                x.type = hci_candidate_type(t);
+                x.term[0] = (hci_effect_term){.parameter = k, .order = 1.0, .value = 1.0};
+            }
+    return x;
+}
+
+/* Whether a term is the torque per ampere, of which the recordings tell nothing, nor alternatives. */
+static bool is_untold(const finding *f, const hci_candidate *x, size_t j)
+{
+    const hci_candidate constant = constant_term();
+    return f->alternatives->constant_share > 0.0 && x->type == constant.type &&
+           x->term[j].parameter == constant.term[0].parameter &&
+           fabs(x->term[j].order - constant.term[0].order) <= HCI_ORDER_TOLERANCE;
+}
+
+static void column_leave(hci_normal_equations *normal, size_t c)
+{
+    normal->moment[c] = 0.0;
+    for (size_t k = 0; k < normal->n; ++k)
+        normal->gram[c * normal->n + k] = normal->gram[k * normal->n + c] = 0.0;
+}
+
 /* Such a run says nothing of terms that need i_d: the torque that they would make of what is read did not
  * flow. */
 static void direct_leave(const hci_allowed_terms *terms, hci_normal_equations *normal)
 {
-    for (size_t c = 0; c < normal->n; ++c) {
-        if (!terms->by_direct[c]) continue;
-        normal->moment[c] = 0.0;
-        for (size_t k = 0; k < normal->n; ++k)
-            normal->gram[c * normal->n + k] = normal->gram[k * normal->n + c] = 0.0;
-    }
+    for (size_t c = 0; c < normal->n; ++c)
+        if (terms->by_direct[c]) column_leave(normal, c);
+}
+
+/* Beside means that tell nothing the noise of a current would, and too little: it makes no torque. */
+static void untold_leave(const finding *f, hci_normal_equations *normal)
+{
+    const hci_candidates *all = &f->terms.candidates;
+    size_t c = 0;
+    for (size_t k = 0; k < all->count; ++k)
+        for (size_t j = 0; j < all->candidate[k].count; ++j, ++c)
+            if (is_untold(f, &all->candidate[k], j)) column_leave(normal, c);
 }
 
 static hci_status part_add(void *context, const hci_regression *part, size_t run, hci_note *note)
@@ -72,6 +107,7 @@ static hci_status part_add(void *context, const hci_regression *part, size_t run
     const hci_status status = hci_regression_normal(part, &f->terms.candidates, true, &normal, note);
     if (status) return status;
     if (direct_is_error(f, part, run)) direct_leave(&f->terms, &normal);
+    untold_leave(f, &normal);
     const bool told = normal.rows > 0.0;
     const bool made = !told || hci_condensed_add(&f->parts, &normal, f->terms.unit);
     hci_normal_equations_release(&normal);
@@ -296,18 +332,6 @@ static hci_status with_alternatives(const hci_candidates *fitted, const hci_alte
     return status;
 }
 
-static hci_candidate constant_term(void)
-{
-    hci_candidate x = {.count = 1, .in = true};
-    for (size_t t = 0; t < hci_candidate_types() && !x.type; ++t)
-        for (size_t k = 0; k < hci_candidate_type(t)->parameter_count && !x.type; ++k)
-            if (hci_candidate_type(t)->parameter[k].traits & HCI_PARAMETER_WITH_LOAD) {
-                x.type = hci_candidate_type(t);
-                x.term[0] = (hci_effect_term){.parameter = k, .order = 1.0, .value = 1.0};
-            }
-    return x;
-}
-
 /* The fundamental of the back-EMF by which the torque per ampere differs. */
 static hci_status with_constant(const hci_regression *e, double share, hci_candidates *all, hci_note *note)
 {
@@ -353,7 +377,7 @@ static void alternatives_take(const finding *f, const hci_model *model, hci_unce
         for (size_t c = 0; c < model->columns; ++c) {
             const hci_candidate *x = model->column[c].candidate;
             const size_t j = model->column[c].term;
-            if (!x->type->in_machine) continue;
+            if (!x->type->in_machine || is_untold(f, x, j)) continue;
             const double more = alternative_more(f, f->alternatives->machine[n], x, j);
             for (size_t m = n; m < u->machines; m += f->alternatives->count + 1)
                 u->departure[model->column[c].place * u->machines + m] += more;
