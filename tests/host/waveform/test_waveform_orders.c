@@ -1,4 +1,7 @@
-/* Which orders of averaged turns are kept: waves that are written down here. */
+/* Which orders of averaged turns are kept: waves that are written down here; and which turns have the orders
+ * that are given. */
+#include "host/waveform/cogging.c"
+
 #include <math.h>
 #include <string.h>
 
@@ -118,6 +121,28 @@ static void test_rounding_is_no_order(void)
 
 /* ---- given orders ---- */
 
+/* Each of them is a multiple of the step, to the tolerance of an order. */
+static void test_orders_that_turns_have(void)
+{
+    static const double FIT[] = {0.5, 2.0, 7.5};
+    double orders[3];
+    options.orders = orders;
+    options.order_count = 3;
+    memcpy(orders, FIT, sizeof orders);
+    TEST_ASSERT_TRUE(orders_fit(&options, 0.5));
+    TEST_ASSERT_FALSE(orders_fit(&options, 1.0));
+    for (int k = 0; k < 3; ++k)
+        for (int sign = -1; sign <= 1; sign += 2) {
+            memcpy(orders, FIT, sizeof orders);
+            orders[k] += sign * 0.9 * HCI_ORDER_TOLERANCE;
+            TEST_ASSERT_TRUE(orders_fit(&options, 0.5));
+            orders[k] += sign * 0.2 * HCI_ORDER_TOLERANCE;
+            TEST_ASSERT_FALSE(orders_fit(&options, 0.5));
+        }
+    options.order_count = 0;
+    TEST_ASSERT_TRUE(orders_fit(&options, 0.5));
+}
+
 static void test_given_orders(void)
 {
     static const double ORDERS[3] = {1.5, 4.0, 19.5};
@@ -192,6 +217,7 @@ int main(void)
     RUN_TEST(test_passes_in_no_order);
     RUN_TEST(test_an_amplitude_that_comes_and_goes);
     RUN_TEST(test_rounding_is_no_order);
+    RUN_TEST(test_orders_that_turns_have);
     RUN_TEST(test_given_orders);
     RUN_TEST(test_orders_that_the_samples_do_not_bear);
     RUN_TEST(test_memory_that_is_out);
