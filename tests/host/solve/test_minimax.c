@@ -180,6 +180,11 @@ static void test_which_cost_is_less(void)
     TEST_ASSERT_TRUE(hci_set_cost_less(&p, off, dear));      /* allowed copper first */
     TEST_ASSERT_TRUE(hci_set_cost_less(&p, dear, dearer));   /* neither: less copper */
     TEST_ASSERT_FALSE(hci_set_cost_less(&p, exact, cheaper));
+    const hci_set_cost just_exact = {0.1, 85.0}, just_allowed = {0.0, 100.0}; /* the bounds are met there */
+    TEST_ASSERT_TRUE(hci_set_cost_less(&p, just_exact, exact));
+    TEST_ASSERT_FALSE(hci_set_cost_less(&p, exact, just_exact));
+    TEST_ASSERT_TRUE(hci_set_cost_less(&p, just_allowed, off));
+    TEST_ASSERT_FALSE(hci_set_cost_less(&p, off, just_allowed));
 }
 
 /* ---- subsets ---- */
