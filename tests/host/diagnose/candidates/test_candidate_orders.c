@@ -165,6 +165,21 @@ static void test_means_have_no_orders(void)
     TEST_ASSERT_EQUAL_DOUBLE(0.0, orders.weight[RUNS - 1]);
 }
 
+/* What is the same in all of a run has no order either, where the run does not go round. */
+static void test_a_constant_has_no_orders(void)
+{
+    double still[60];
+    for (size_t k = 0; k < COUNT; ++k)
+        sample[k].reading.theta_m_rad *= 0.9;
+    find(1);
+    memcpy(still, orders.still, sizeof still);
+    for (size_t k = 0; k < COUNT; ++k)
+        residual_Nm[k] += 1.0 + (double)(k / SAMPLES);
+    find(1);
+    for (size_t k = 0; k < 60; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, still[k], orders.still[k]);
+}
+
 /* Noise gives χ² of two degrees of freedom: above x once in exp(x/2) times, above the limit once in 403. */
 static void test_noise_stands_out_at_the_rate_of_the_limit(void)
 {
@@ -361,6 +376,7 @@ int main(void)
     RUN_TEST(test_turns_of_fewer_samples);
     RUN_TEST(test_what_an_order_explains);
     RUN_TEST(test_means_have_no_orders);
+    RUN_TEST(test_a_constant_has_no_orders);
     RUN_TEST(test_noise_stands_out_at_the_rate_of_the_limit);
     RUN_TEST(test_orders_end_below_half_the_samples);
     RUN_TEST(test_slots_and_the_turn);
