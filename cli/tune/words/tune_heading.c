@@ -57,10 +57,38 @@ static void say_bound(const cli_tuning *t, double before_Nm, double after_Nm, ch
                  hci_ripple_bound_as_said(e->peak_to_peak_Nm));
 }
 
+#define OF_RMS      2.8 /* peak to peak, of a sine */
+#define NEARLY_NONE 0.1 /* of the ripple of the recordings */
+
+/* What is not in the model, where it is little of the ripple that was recorded. */
+static bool has_the_ripple(const cli_tuning *t)
+{
+    const cli_tune_ripple x = cli_tune_recorded_ripple(t);
+    const double left_Nm = cli_tune_unexplained_Nm(t);
+    return t->diagnosis.verdict == HCI_DIAGNOSIS_PARTLY && x.run < t->runs.count &&
+           OF_RMS * left_Nm < NEARLY_NONE * x.peak_to_peak_Nm;
+}
+
+/* Of a model that has the ripple, and not the rest. */
+static void say_rest_unknown(const cli_tuning *t, char *text, size_t size)
+{
+    char but[48] = "";
+    if (cli_tune_unexplained_Nm(t) > 0.0)
+        snprintf(but, sizeof but, " but for %.2g N·m rms", cli_tune_unexplained_Nm(t));
+    snprintf(
+        text, size,
+        "The ripple of the recordings is in the model%s, and something else in them, such as their means, "
+        "is not explained, so what the table leaves of the ripple has no bound and may be more than a "
+        "plain sine leaves",
+        but);
+}
+
 /* Why the table is doubtful, and what that means for what it leaves. */
 static void say_why_doubtful(const cli_tuning *t, char *text, size_t size)
 {
-    if (t->diagnosis.means_alone)
+    if (!isfinite(t->solution.expected.unbelievable_order) && !t->diagnosis.means_alone && has_the_ripple(t))
+        say_rest_unknown(t, text, size);
+    else if (t->diagnosis.means_alone)
         snprintf(
             text, size,
             "The ripple of the recordings is explained, and the mean torque of each is not, as where "
@@ -91,7 +119,7 @@ static void say_doubtful(const cli_tuning *t, double before_Nm, char *text, size
                  "at %.3g A",
                  cli_tune_name_of(t, x.run), x.peak_to_peak_Nm, current, before_Nm,
                  t->solution.plain_amplitude_A);
-    if (cli_tune_unexplained_Nm(t) > 0.0)
+    if (cli_tune_unexplained_Nm(t) > 0.0 && !has_the_ripple(t))
         snprintf(
             text + strlen(text), size - strlen(text),
             "; up to %.2g N·m rms of ripple in the recordings is not in the model, and the table leaves that "

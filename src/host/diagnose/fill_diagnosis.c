@@ -94,6 +94,23 @@ bool hci_any_turns(const hci_dataset *b, const hci_runs *runs)
     return false;
 }
 
+/* ---- means that are not understood ---- */
+
+#define MUCH_OF_TORQUE 0.15 /* of the largest torque, that nothing explains */
+#define OF_CURRENT     0.1  /* of the current, along d */
+
+/* Where a current along d flowed, much that is left of the means is a saliency or iron that saturates, and
+ * the ripple at other currents is not known with them. */
+static bool means_are_of_iron(const hci_dataset *b, const hci_attribution *a)
+{
+    bool direct = false;
+    for (size_t r = 0; r < b->samples.run_count; ++r) {
+        const hci_run_statistics *x = &b->samples.statistics[r];
+        direct = direct || (b->fit[r] && x->rms_id_A > OF_CURRENT * x->current_A);
+    }
+    return direct && a->means_alone && a->unexplained_Nm > MUCH_OF_TORQUE * hci_dataset_range_of(b).torque_Nm;
+}
+
 /* ---- the whole ---- */
 
 /* What no effect explains is described, and then leaves: it never gets into a machine. */
@@ -101,6 +118,7 @@ hci_status hci_diagnosis_fill(hci_dataset *b, const hci_runs *runs, hci_attribut
                               hci_note *note)
 {
     if (hci_watch_stops(b->regression.watch)) a->ended = HCI_WORK_INTERRUPTED; /* perhaps in a fit */
+    if (means_are_of_iron(b, a)) a->means_alone = false;
     d->search = a->ended;
     d->no_load_alone = a->no_load_alone;
     d->slip = a->unknown ? a->slip : NULL;

@@ -2,8 +2,8 @@
 #include "host/diagnose/conclude.c"
 #include "host/diagnose/diagnose.c"
 #include "host/diagnose/fill_diagnosis.c"
-#include "host/diagnose/origin.c"
 #include "host/diagnose/left_open.c"
+#include "host/diagnose/origin.c"
 
 #include "unity.h"
 
@@ -231,6 +231,24 @@ static void line(size_t k, size_t of_run, double order, double after_Nm, double 
     d.lines = k + 1;
 }
 
+/* Fifteen hundredths of the largest torque, where a tenth of a current is along d. */
+static void test_means_beside_a_direct_current(void)
+{
+    for (size_t r = 0; r < RUNS; ++r)
+        statistics[r].rms_torque_Nm = 2.0, statistics[r].current_A = 10.0;
+    statistics[1].rms_id_A = 1.01;
+    a.means_alone = true, a.unexplained_Nm = 0.31;
+    TEST_ASSERT_TRUE(means_are_of_iron(&b, &a));
+    a.unexplained_Nm = 0.29;
+    TEST_ASSERT_FALSE(means_are_of_iron(&b, &a));
+    a.unexplained_Nm = 0.31, statistics[1].rms_id_A = 0.99;
+    TEST_ASSERT_FALSE(means_are_of_iron(&b, &a));
+    statistics[1].rms_id_A = 1.01, fitted[1] = false;
+    TEST_ASSERT_FALSE(means_are_of_iron(&b, &a));
+    fitted[1] = true, a.means_alone = false;
+    TEST_ASSERT_FALSE(means_are_of_iron(&b, &a));
+}
+
 /* Peak to peak, of lines above twice the noise; 1.9 times the root of the sum of the squares at the most. */
 static void test_orders_that_are_left(void)
 {
@@ -323,6 +341,7 @@ int main(void)
     RUN_TEST(test_swings_of_the_rotor);
     RUN_TEST(test_a_drift_beside_nothing_else);
     RUN_TEST(test_ripple_that_is_not_explained);
+    RUN_TEST(test_means_beside_a_direct_current);
     RUN_TEST(test_orders_that_are_left);
     RUN_TEST(test_which_runs_are_of_use);
     RUN_TEST(test_torques_that_were_measured);
