@@ -35,7 +35,8 @@ $python -m pip -q install --no-compile numpy pytest matplotlib pandas polars sci
     skip "no packages to be had: $(tail -n 1 "$work/log")"
 
 export CMAKE_BUILD_PARALLEL_LEVEL=2
-# ccache has the objects from build/dev/nested/all, which has the same flags.
+# ccache has the objects from build/dev/nested/all, which has the same flags; Python would name its own compiler.
+export CC="${CC:-cc}"
 ! command -v ccache >/dev/null || export CMAKE_C_COMPILER_LAUNCHER=ccache
 quietly $python -m pip wheel --no-deps --no-build-isolation --config-settings=build-dir="$build" \
     --config-settings=cmake.define.HCI_WERROR=ON -w "$work/dist" "$source_dir"
