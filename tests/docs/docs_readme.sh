@@ -54,7 +54,7 @@ ln -s dev/nested/release build/release
 sed -i '/"Optimised, as installed"/,/}/s/"HCI_BUILD_HOST": "ON"/&, "HCI_WERROR": "ON", "CMAKE_POSITION_INDEPENDENT_CODE": "ON"/' CMakePresets.json
 
 echo "--- $start"
-sh -c "$start"
+LC_ALL=${LC_ALL-} LC_MESSAGES=${LC_MESSAGES-} sh -c "$start" # set, if to nothing, as `ctest --build-and-test` has them: ccache tells that apart
 named=$(grep -o 'out/machine_a/[A-Za-z0-9_.]*[A-Za-z0-9]' "$readme" || true)
 always='currents.csv waveform.csv spectrum.csv summary.json machine_a.h machine_a.c'
 for result in $named $(printf 'out/machine_a/%s ' $always); do

@@ -35,10 +35,11 @@ $python -m pip -q install --no-compile numpy pytest matplotlib pandas polars sci
     skip "no packages to be had: $(tail -n 1 "$work/log")"
 
 export CMAKE_BUILD_PARALLEL_LEVEL=2
-# ccache has the objects from build/dev/nested/all, which has the same flags; Python would name its own compiler.
+# ccache has the objects from build/dev/nested/all, which has the same flags. Python would name its own compiler; and ccache tells
+# variables that are set to nothing, as `ctest --build-and-test` leaves them, from those that are not.
 export CC="${CC:-cc}"
 ! command -v ccache >/dev/null || export CMAKE_C_COMPILER_LAUNCHER=ccache
-quietly $python -m pip wheel --no-deps --no-build-isolation --config-settings=build-dir="$build" \
+LC_ALL=${LC_ALL-} LC_MESSAGES=${LC_MESSAGES-} quietly $python -m pip wheel --no-deps --no-build-isolation --config-settings=build-dir="$build" \
     --config-settings=cmake.define.HCI_WERROR=ON -w "$work/dist" "$source_dir"
 quietly $python -m pip install --no-index "$work"/dist/hci-*.whl
 cd "$work"
