@@ -66,14 +66,29 @@ static bool drops_nothing(const cli_tuning *t, const hci_run *r)
     return share_that_follows(r) <= DROP + CHANCE / sqrt(2.0 * (double)r->count);
 }
 
+static bool is_held_load(const cli_tuning *t, const hci_run *r)
+{
+    return r->torque_source == HCI_TORQUE_HOLDING && hci_run_is_loaded(r, t->declared.model.pole_pairs);
+}
+
+static bool has_held_load(const cli_tuning *t)
+{
+    bool any = false;
+    for (size_t k = 0; k < t->runs.count; ++k)
+        any = any || is_held_load(t, &t->runs.run[k]);
+    return any;
+}
+
 /* Whether a recording is one for the quantity. Cogging torque that a sensor has measured is left to diagnose,
  * which finds it in all recordings at once and knows what they leave open of it: from one of them alone it is
- * off by more than what would be stated. So is that under a load, which makes a ripple of its own. */
+ * off by more than what would be stated. So is that of slow turns under a load, which makes a ripple of its
+ * own, and of those without one beside it: what an encoder makes of cogging torque, the load tells from it.
+ */
 static bool is_for(const cli_tuning *t, const hci_run *r, hci_waveform_quantity quantity)
 {
     if (quantity == HCI_WAVEFORM_BACK_EMF)
         return r->v_V && cli_tune_has_no_current(t, r) && drops_nothing(t, r);
-    return r->torque_source == HCI_TORQUE_HOLDING && !hci_run_is_loaded(r, t->declared.model.pole_pairs);
+    return r->torque_source == HCI_TORQUE_HOLDING && !has_held_load(t);
 }
 
 /* The largest of them. */
