@@ -85,6 +85,18 @@ run 0 diagnose arm/machine --runs arm/runs.csv -o arm_diagnosed
 check "diagnose leaves the load out" grep -q '^turning_load,' arm_diagnosed/machine/diagnosis.csv
 check "a load once a turn where there is none" [ "$(grep -c turning_load waits/diagnose/machine/diagnosis.csv)" -eq 0 ]
 
+# ---- what an eccentric encoder makes of the cogging torque is none of slow turns that others under a load lie beside
+
+eccentric() { # FILE
+    awk -F, -v OFS=, 'NR > 1 { $2 = sprintf("%.6f", $2 + 0.004 * sin($2 + 0.8)) } 1' "$1" >read.csv && mv read.csv "$1"
+}
+brake_log idle.csv 0.004 0 0 1 8
+brake_log braked.csv 0.05 0 0 1 9
+eccentric idle.csv && eccentric braked.csv
+run 0 tune idle.csv braked.csv $motor -o eccentric
+says 'an eccentric encoder \(added\): order 1, mechanical angle = 0\.0040[0-9]* ± ' '  order 12: 0\.00[34][0-9]* ± ' 'friction \(added\): coulomb = 0\.00[34]'
+check "its side bands are cogging torque" [ "$(grep -c 'order 61/5\|order 59/5' eccentric/summary.json)" -eq 0 ]
+
 # ---- a load alone is no machine in which nothing is missing, and a table that takes nothing away is not to be loaded
 
 awk 'BEGIN { srand(4); print "time_s,theta_m_rad,speed_rad_per_s,iq_A"; for (k = 0; k < 8000; ++k) { t = 0.005 * k; way = t < 20 ? 1 : -1
