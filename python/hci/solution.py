@@ -216,7 +216,9 @@ class Solution(Result):
               tables: Tables) -> Emitted:
         note, result = Note(), ffi.new("hci_emit_result *")
         read, parts = self._parts(request, per_torque, reference_torque_Nm, tables)
-        verdict = text(lib.hci_solution_verdict_words(lib.hci_solution_read_verdict(path(tables.folder))))
+        words = ffi.new("char[240]")
+        lib.hci_solution_verdict_words(path(tables.folder), words, ffi.sizeof(words))
+        verdict = text(words)
         lines, kept = strings([f"{read.count} current components, solved by hci-solve".encode(), verdict.encode()])
         identifier, facts = ffi.new("char[]", name.encode()), ffi.addressof(request, "facts")
         request.name = identifier
