@@ -68,7 +68,7 @@ def of_json(path):
 def of_picture(path):
     """Each kind of element of its own, and the words."""
     found, words = {}, []
-    for tag, inside in re.findall(r"<(\w+)([^<]*)", re.sub(r"hci-solve [\d.]+|</?sub>", "", path.read_text()).replace("&#160;", " ")):
+    for tag, inside in re.findall(r"<(\w+)([^<]*)", re.sub(r"hci-solve [\d.]+|</?sub>", "", path.read_text())):
         found.setdefault(tag, []).extend(float(x) for x in NUMBER.findall(inside))
         words.append(tag + NUMBER.sub("0", inside))
     for tag, numbers in found.items():

@@ -103,28 +103,15 @@ static bool is_symbol(const char *text, const char *at)
            !is_of_word(at[3]) && (at == text || !is_of_word(at[-1]));
 }
 
-/* The space between a number and its unit, at which no line ends. */
-static bool is_before_unit(const char *text, const char *at)
-{
-    static const char *const UNIT[] = {"N·m", "A", "V", "rpm", "Hz", "kHz", "%", "ms", "°"};
-    if (*at != ' ' || at == text || !isdigit((unsigned char)at[-1])) return false;
-    for (size_t k = 0; k < sizeof UNIT / sizeof *UNIT; ++k)
-        if (strncmp(at + 1, UNIT[k], strlen(UNIT[k])) == 0 && !is_of_word(at[1 + strlen(UNIT[k])]))
-            return true;
-    return false;
-}
-
 /* The first `length` bytes of a sentence. */
 static void put_prose(hci_output *out, const char *text, size_t length)
 {
     const char *from = text;
     for (const char *at = text; at < text + length; ++at) {
-        const bool symbol = is_symbol(text, at), unit = !symbol && is_before_unit(text, at);
-        if (!symbol && !unit) continue;
+        if (!is_symbol(text, at)) continue;
         put_part(out, from, (size_t)(at - from));
-        if (symbol) hci_output_text(out, "%c<sub>%c</sub>", at[0], at[2]);
-        if (unit) hci_output_text(out, "&#160;");
-        at += symbol ? 2 : 0;
+        hci_output_text(out, "%c<sub>%c</sub>", at[0], at[2]);
+        at += 2;
         from = at + 1;
     }
     put_part(out, from, (size_t)(text + length - from));

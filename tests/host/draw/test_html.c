@@ -106,7 +106,7 @@ static void test_sections(void)
     is_written("<section>\n<h2>axi_a</h2>\n");
     hci_html_paragraph(out, NULL, "L_q of 3 N·m, i_a_rms, 2 A; 4 Amp `i_b 5 A` i_b");
     is_written(
-        "<p>L<sub>q</sub> of 3&#160;N·m, i_a_rms, 2&#160;A; 4 Amp <code>i_b 5 A</code> i<sub>b</sub></p>\n");
+        "<p>L<sub>q</sub> of 3 N·m, i_a_rms, 2 A; 4 Amp <code>i_b 5 A</code> i<sub>b</sub></p>\n");
     hci_html_end(out);
     text_has("</p>\n</main>\n</body>\n</html>\n", written());
 }

@@ -606,7 +606,7 @@ static void test_heading_and_list(void)
         out, &(hci_html_opening){"k", "b", "It falls (from 3; to 1); i_q of `Iq` & more; check it", true});
     end_part(out);
     find("<title>It falls (from 3; to 1)</title>", 0);
-    find("<h1>It falls (from 3; to 1)</h1>\n<ul class=\"also\">\n<li>i_q of <code>Iq</code> &#38; more</li>\n"
+    find("<h1>It falls (from 3; to 1)</h1>\n<ul class=\"also\">\n<li>i<sub>q</sub> of <code>Iq</code> &#38; more</li>\n"
          "<li>Check it</li>\n</ul>",
          0);
 }
@@ -618,7 +618,7 @@ static void test_further_items_of_a_heading(void)
     hci_html_also(out, "");
     hci_html_also(out, "as in `one`; not two < 3\ni_d\n");
     end_part(out);
-    find("<ul class=\"also\">\n<li>As in <code>one</code>; not two &#60; 3</li>\n<li>i_d</li>\n</ul>\n", 0);
+    find("<ul class=\"also\">\n<li>As in <code>one</code>; not two &#60; 3</li>\n<li>i<sub>d</sub></li>\n</ul>\n", 0);
     TEST_ASSERT_NULL(strstr(strstr(picture, "<ul") + 1, "<ul"));
 }
 

@@ -300,7 +300,7 @@ static void test_page_without_currents(void)
     text_has(">960 samples</p>", text);
     TEST_ASSERT_EQUAL_INT(2, text_count("<p class=\"of\">of a bench</p>", text));
     text_has("<h2>What to record next</h2>", text);
-    text_has(">a turn each way</p>", text);
+    text_has(">A turn each way</p>", text);
     text_lacks("What is not known", text);
     text_has(">hci-solve diagnose m</p>", text);
     text_has(">hci-solve solve m</p>", text);
