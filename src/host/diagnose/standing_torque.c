@@ -46,7 +46,8 @@ static bool is_saliency(const hci_effect_type *type, size_t k)
 
 static bool is_of_magnets(const hci_effect_type *type, size_t k)
 {
-    return (type->parameter[k].traits & HCI_PARAMETER_WITH_LOAD) != 0;
+    size_t parameter;
+    return type == hci_torque_per_ampere(&parameter) && k == parameter;
 }
 
 static standing standing_of(int kind)

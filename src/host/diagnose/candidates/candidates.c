@@ -101,14 +101,30 @@ static bool is_sensor_zero(const hci_effect_parameter *p)
     return p->traits == (HCI_PARAMETER_OF_TRANSDUCER | HCI_PARAMETER_LINEAR) && strcmp(p->unit, "Nm") == 0;
 }
 
-const hci_effect_type *hci_sensor_zero(size_t *parameter)
+static bool is_of_magnets(const hci_effect_parameter *p)
+{
+    return (p->traits & HCI_PARAMETER_WITH_LOAD) != 0;
+}
+
+/* The first type with a parameter that is one. */
+static const hci_effect_type *type_with(bool (*is)(const hci_effect_parameter *), size_t *parameter)
 {
     for (size_t t = 0; t < hci_candidate_types(); ++t)
         for (size_t k = 0; k < hci_candidate_type(t)->parameter_count; ++k) {
             *parameter = k;
-            if (is_sensor_zero(&hci_candidate_type(t)->parameter[k])) return hci_candidate_type(t);
+            if (is(&hci_candidate_type(t)->parameter[k])) return hci_candidate_type(t);
         }
     return NULL;
+}
+
+const hci_effect_type *hci_sensor_zero(size_t *parameter)
+{
+    return type_with(is_sensor_zero, parameter);
+}
+
+const hci_effect_type *hci_torque_per_ampere(size_t *parameter)
+{
+    return type_with(is_of_magnets, parameter);
 }
 
 void hci_candidate_shorten(hci_candidate *x)

@@ -62,6 +62,10 @@ bool hci_candidate_is_gain(const hci_effect_type *type);
 /* The type that has the zero of a torque sensor, and which of its parameters that is; NULL: none has. */
 const hci_effect_type *hci_sensor_zero(size_t *parameter);
 
+/* The type that has the back-EMF of the magnets, and which of its parameters that is, whose order 1 is the
+ * torque per ampere; NULL: none has. */
+const hci_effect_type *hci_torque_per_ampere(size_t *parameter);
+
 /* Leaves the last of several terms out. */
 void hci_candidate_shorten(hci_candidate *candidate);
 

@@ -177,8 +177,8 @@ static void known_narrow(const hci_coenergy_sizes *found, const hci_candidate *x
     t->centre[at] = -departure;
 }
 
-/* Of terms of the mean where means tell nothing: how far the mean is open is said by the torque per ampere.
- */
+/* One over the variance of terms of the mean where means tell nothing: none of them is another one, and how
+ * far the mean is open is said by the torque per ampere. */
 #define UNTOLD 1e30
 
 /* One term of a candidate: a term of the model keeps what was expected of it, unless that is by the width;

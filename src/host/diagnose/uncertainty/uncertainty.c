@@ -50,26 +50,12 @@ static bool direct_is_error(const finding *f, const hci_regression *e, size_t ru
     return sqrt(sum) <= MISREAD_D * f->terms.largest_current_A * sqrt(count);
 }
 
-/* The torque per ampere, as the fundamental of the back-EMF. */
-static hci_candidate constant_term(void)
-{
-    hci_candidate x = {.count = 1, .in = true};
-    for (size_t t = 0; t < hci_candidate_types() && !x.type; ++t)
-        for (size_t k = 0; k < hci_candidate_type(t)->parameter_count && !x.type; ++k)
-            if (hci_candidate_type(t)->parameter[k].traits & HCI_PARAMETER_WITH_LOAD) {
-                x.type = hci_candidate_type(t);
-                x.term[0] = (hci_effect_term){.parameter = k, .order = 1.0, .value = 1.0};
-            }
-    return x;
-}
-
 /* Whether a term is the torque per ampere, of which the recordings tell nothing, nor alternatives. */
 static bool is_untold(const finding *f, const hci_candidate *x, size_t j)
 {
-    const hci_candidate constant = constant_term();
-    return f->alternatives->constant_share > 0.0 && x->type == constant.type &&
-           x->term[j].parameter == constant.term[0].parameter &&
-           fabs(x->term[j].order - constant.term[0].order) <= HCI_ORDER_TOLERANCE;
+    size_t parameter;
+    return f->alternatives->constant_share > 0.0 && x->type == hci_torque_per_ampere(&parameter) &&
+           x->term[j].parameter == parameter && fabs(x->term[j].order - 1.0) <= HCI_ORDER_TOLERANCE;
 }
 
 static void column_leave(hci_normal_equations *normal, size_t c)
@@ -335,10 +321,12 @@ static hci_status with_alternatives(const hci_candidates *fitted, const hci_alte
 /* The fundamental of the back-EMF by which the torque per ampere differs. */
 static hci_status with_constant(const hci_regression *e, double share, hci_candidates *all, hci_note *note)
 {
-    hci_candidate x = constant_term();
-    hci_model model;
-    if (hci_candidates_find_in(all, &x)) return HCI_OK;
+    size_t parameter;
+    hci_candidate x = {.type = hci_torque_per_ampere(&parameter), .count = 1, .in = true};
     hci_candidates one = {.candidate = &x, .count = 1};
+    hci_model model;
+    x.term[0] = (hci_effect_term){.parameter = parameter, .order = 1.0, .value = 1.0};
+    if (hci_candidates_find_in(all, &x)) return HCI_OK;
     hci_status status = hci_model_make(e->declared, &one, false, &model, note);
     if (status) return status;
     const double constant = hci_torque_constant(e->machine, e->declared);

@@ -220,6 +220,21 @@ static void test_kinds_of_terms(void)
     }
 }
 
+/* Where the means of the recordings tell nothing, no term of the mean is another one. */
+static void test_terms_of_means_that_tell_nothing(void)
+{
+    size_t at;
+    make();
+    (void)find("saturation", "d1q2_cosine", 0.0, &at);
+    TEST_ASSERT_FALSE(terms.fixed[at] > 1e20);
+    regression.free_means = true;
+    make();
+    (void)find("saturation", "d1q2_cosine", 0.0, &at);
+    TEST_ASSERT_TRUE(terms.fixed[at] > 1e20);
+    (void)find("saturation", "d3q0_cosine", 6.0, &at);
+    TEST_ASSERT_FALSE(terms.fixed[at] > 1e20);
+}
+
 /* Order 0 of i_d² is as large as rotors are salient, ¾ (ΔL + Δψ/I) I², whatever was found; other orders are
  * not. */
 static void test_what_is_usual_of_the_mean(void)
@@ -391,6 +406,7 @@ int main(void)
     RUN_TEST(test_the_reference_current);
     RUN_TEST(test_terms_that_are_not_in_the_model);
     RUN_TEST(test_kinds_of_terms);
+    RUN_TEST(test_terms_of_means_that_tell_nothing);
     RUN_TEST(test_what_is_usual_of_the_mean);
     RUN_TEST(test_what_is_usual_along_q);
     RUN_TEST(test_terms_of_the_model);

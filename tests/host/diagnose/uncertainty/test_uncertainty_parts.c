@@ -113,6 +113,34 @@ static void test_terms_of_a_direct_current_leave(void)
     TEST_ASSERT_TRUE(moment[0] == 1.0 && moment[1] == 0.0 && moment[2] == 3.0);
 }
 
+/* Beside means that tell nothing no row tells the torque per ampere, and no alternative has another one. */
+static void test_a_torque_per_ampere_that_is_not_told(void)
+{
+    double gram[4] = {1.0, 2.0, 2.0, 5.0}, moment[2] = {1.0, 2.0}, departure[2] = {0.0, 0.0};
+    size_t parameter;
+    const char *name = hci_torque_per_ampere(&parameter)->name;
+    hci_normal_equations normal = {2, gram, moment, 1.0, 1.0};
+    put(&fitted, name, parameter, 5.0, 0.01, 0.0);
+    put(&fitted, name, parameter, 1.0, 0.0, 0.0);
+    put(&alternative, name, parameter, 1.0, 0.3, 0.0);
+    f.terms.candidates = fitted;
+    untold_leave(&f, &normal);
+    TEST_ASSERT_TRUE(gram[3] == 5.0 && moment[1] == 2.0);
+    alternatives.constant_share = 0.1;
+    untold_leave(&f, &normal);
+    const double expected[4] = {1.0, 0.0, 0.0, 0.0};
+    TEST_ASSERT_EQUAL_MEMORY(expected, gram, sizeof gram);
+    TEST_ASSERT_TRUE(moment[0] == 1.0 && moment[1] == 0.0);
+    hci_model_column column = {&list[1], 0, 0};
+    const hci_model model = {.column = &column, .columns = 1};
+    hci_uncertainty u = {.departure = departure, .machines = 2};
+    alternatives_take(&f, &model, &u);
+    TEST_ASSERT_TRUE(departure[0] == 0.0 && departure[1] == 0.0);
+    alternatives.constant_share = 0.0;
+    alternatives_take(&f, &model, &u);
+    TEST_ASSERT_EQUAL_DOUBLE(0.3, departure[0]);
+}
+
 static void test_what_was_measured_in_a_run(void)
 {
     static const hci_effects none = {NULL, 0};
@@ -241,6 +269,7 @@ int main(void)
     RUN_TEST(test_runs_that_span_enough);
     RUN_TEST(test_direct_currents_that_sensors_make);
     RUN_TEST(test_terms_of_a_direct_current_leave);
+    RUN_TEST(test_a_torque_per_ampere_that_is_not_told);
     RUN_TEST(test_what_was_measured_in_a_run);
     RUN_TEST(test_misfits_of_runs);
     RUN_TEST(test_how_many_groups_tell);
