@@ -224,7 +224,9 @@ typedef struct {
     int pole_pairs;             /* p */
     int power, order;           /* highest, of the currents and of the electrical angle */
     double reference_current_A; /* I_0 */
-    bool unlike; /* what a rotor that looks alike both ways round does not have, and only that */
+    bool unlike;    /* what a rotor that looks alike both ways round does not have, and only that */
+    int mean_power; /* highest of the currents in what is the same at every angle, where that is above `power`
+                     */
 } hci_effect_coenergy_series;
 
 /* Takes candidates. */

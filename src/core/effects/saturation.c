@@ -140,7 +140,8 @@ static void propose_coenergy(const hci_effect_coenergy_series *series, const hci
     for (size_t k = 0; k < sizeof MONOMIAL / sizeof *MONOMIAL; ++k) {
         const int power = MONOMIAL[k].a + MONOMIAL[k].b;
         const size_t cosine = (MONOMIAL[k].b % 2 == 0) != series->unlike;
-        for (int n = cosine ? 0 : 6; n <= series->order && power <= series->power; n += 6)
+        const int orders = power <= series->power ? series->order : power <= series->mean_power ? 0 : -1;
+        for (int n = cosine ? 0 : 6; n <= orders; n += 6)
             hci_effect_propose_coenergy(to, 2 * k + cosine, power, n, 1.0);
     }
 }

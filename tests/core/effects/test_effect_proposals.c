@@ -432,7 +432,7 @@ static double faded(int of_power, int n)
 
 static void series(const char *type, bool unlike)
 {
-    const hci_effect_coenergy_series x = {2, 4, 18, 20.0, unlike};
+    const hci_effect_coenergy_series x = {2, 4, 18, 20.0, unlike, 0};
     count = 0;
     hci_effect_type_find(type)->propose_coenergy(&x, &TO);
 }
@@ -484,6 +484,23 @@ static void test_series_of_the_coenergy(void)
     }
 }
 
+/* Above the power of a series only what is the same at every angle. */
+static void test_higher_powers_of_the_mean(void)
+{
+    char name[16];
+    const hci_effect_coenergy_series plain = {2, 4, 18, 20.0, false, 0}, mean = {2, 4, 18, 20.0, false, 6};
+    count = 0;
+    hci_effect_type_find("saturation")->propose_coenergy(&plain, &TO);
+    size_t k = count;
+    count = 0;
+    hci_effect_type_find("saturation")->propose_coenergy(&mean, &TO);
+    for (int degree = 5; degree <= 6; ++degree)
+        for (int b = 0; b <= degree; b += 2)
+            takes_power("saturation", k++, degree,
+                        (named){power(name, degree - b, b, true), 1, 0, 1.0, faded(degree, 0)});
+    TEST_ASSERT_EQUAL_UINT64(k, count);
+}
+
 /* The highest order of a series is in it. */
 static void test_ends_of_the_series(void)
 {
@@ -495,7 +512,7 @@ static void test_ends_of_the_series(void)
     } END[] = {{"back_emf", 17, 6, 5}, {"back_emf", 7, 3, 2}, {"back_emf", 1, 1, 0}, {"cogging", 12, 2, 1}};
     for (size_t k = 0; k < sizeof END / sizeof *END; ++k)
         for (int below = 0; below < 2; ++below) {
-            const hci_effect_coenergy_series x = {2, 4, END[k].order - below, 20.0, false};
+            const hci_effect_coenergy_series x = {2, 4, END[k].order - below, 20.0, false, 0};
             count = 0;
             hci_effect_type_find(END[k].type)->propose_coenergy(&x, &TO);
             TEST_ASSERT_EQUAL_UINT64(below ? END[k].terms_below : END[k].terms, count);
@@ -727,6 +744,7 @@ int main(void)
     RUN_TEST(test_inductances_without_an_i_d);
     RUN_TEST(test_a_mean_of_one_sign);
     RUN_TEST(test_series_of_the_coenergy);
+    RUN_TEST(test_higher_powers_of_the_mean);
     RUN_TEST(test_ends_of_the_series);
     RUN_TEST(test_a_fan_does_not_fade);
     RUN_TEST(test_friction_that_fades);

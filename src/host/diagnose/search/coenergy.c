@@ -10,11 +10,13 @@
 #include "host/diagnose/fit/linearise.h"
 #include "host/diagnose/fit/shown_orders.h"
 #include "host/numeric/left_out.h"
+#include "host/numeric/noise.h"
 
 enum {
     LEAST_RUNS = 5,
     LOW_POWER = 4,
     HIGH_POWER = 6,
+    MEAN_POWER = 8, /* of what is the same at every angle, in a choice that is sharp */
     MOST_ORDER = 90,
     LEAST_ORDER = 24,
     OF_IRON = 6, /* orders that phases which are alike make */
@@ -35,6 +37,11 @@ static const double WIDTHS[] = {1.0, 3.0, 10.0, 30.0, 100.0};
 #define NO_WORSE 0.01 /* of the mean logarithm of the squares */
 #define FLOOR    0.05 /* mean square of a run, in units of its noise, below which it is as good as can be */
 
+/* How much wider the mean of a power above 2 is expected in a sharp choice, from each to the next: √(1 + x²)
+ * has powers that fall by about 0.6. */
+#define SHARPER 1.7
+#define SHARP   0.2 /* of the mean logarithm of the squares, that it has to be better: a tenth in the rms */
+
 #define SAME_CURRENT 0.02 /* of the largest */
 #define BLUNT                                                                                                \
     10.0 /* noise over the resolution, above which single terms say all that the recordings can tell */
@@ -45,6 +52,7 @@ static const double WIDTHS[] = {1.0, 3.0, 10.0, 30.0, 100.0};
 typedef struct {
     int power;           /* highest, of the currents */
     double width;        /* of the expectation, in units of the noise; 0: the model as it was */
+    bool sharp;          /* iron that saturates within a part of the currents: the mean has high powers */
     bool without[PARTS]; /* below */
 } choice;
 
@@ -120,9 +128,12 @@ static double precision_of(const comparison *c, const hci_candidate *x, const ch
     const int part = part_of(x);
     if (part >= 0 && how->without[part]) return (double)INFINITY;
     if (!(x->coenergy_unit > 0.0)) return known > 0.0 ? 1.0 / (known * known) : 0.0;
-    if (x->power > how->power || (x->power < SINGLE_POWERS && how->without[x->power]))
+    const bool of_mean = how->sharp && x->power > 2 && !(x->term[0].order > HCI_ORDER_TOLERANCE);
+    if (x->power > (of_mean ? MEAN_POWER : how->power) ||
+        (x->power < SINGLE_POWERS && how->without[x->power]))
         return (double)INFINITY;
     double wide = how->width * c->noise_Nm * x->coenergy_unit;
+    if (of_mean) wide *= pow(SHARPER, x->power - 2);
     if (before && x->power < 2) wide = fmax(wide, known > 0.0 ? known : (double)INFINITY);
     return 1.0 / (wide * wide);
 }
@@ -264,6 +275,22 @@ static hci_status settle_parts(const comparison *c, choice *how, bool *changed, 
     return status;
 }
 
+/* With high powers of the mean, where left-out runs say so plainly: they are as large as they like, and
+ * wrong outside of the currents that were measured. */
+static hci_status sharpen(const comparison *c, choice *best, double *least, hci_note *note)
+{
+    choice sharp = *best;
+    double of_sharp = INFINITY;
+    bool changed;
+    sharp.sharp = true;
+    hci_status status = choose(c, &sharp, &of_sharp, note);
+    if (status || !(of_sharp < *least - SHARP)) return status;
+    *best = sharp;
+    *least = of_sharp;
+    status = settle_parts(c, best, &changed, note);
+    return status || !changed ? status : choose(c, best, least, note);
+}
+
 /* The series without what is declared and what the search has found beside it; then with what left-out runs
  * miss, for which the width is chosen again, until neither changes: what stood for a part that has come in
  * goes. Width 0, the model as it was, where that describes left-out runs
@@ -281,6 +308,7 @@ static hci_status choose_all(const comparison *c, choice *best, hci_note *note)
         status = settle_parts(c, best, &changed, note);
         if (!status && changed) status = choose(c, best, &least, note);
     }
+    if (!status) status = sharpen(c, best, &least, note);
     if (!status && least > known + SELECTED) best->width = 0.0;
     return status;
 }
@@ -325,8 +353,12 @@ static int highest_order(const hci_search *s)
 static hci_status comparison_make(comparison *c, hci_note *note)
 {
     hci_regression *e = c->search->regression;
-    const hci_effect_coenergy_series series = {e->machine->pole_pairs, HIGH_POWER, highest_order(c->search),
-                                               c->known->candidates.reference_current_A, false};
+    const hci_effect_coenergy_series series = {e->machine->pole_pairs,
+                                               HIGH_POWER,
+                                               highest_order(c->search),
+                                               c->known->candidates.reference_current_A,
+                                               false,
+                                               MEAN_POWER};
     hci_status status = hci_coenergy_terms(&c->known->candidates, &series, &c->all, note);
     if (status) return status;
     start_from_zero(&c->all);
@@ -392,16 +424,35 @@ static size_t different_currents(const hci_regression *e)
     return count;
 }
 
+/* rms noise of the samples. What a model lacks of short runs counts as their noise, since they have no
+ * spectrum; where neighbours differ by less, it is none. */
+static hci_status sample_noise_find(hci_search *s, const hci_candidates *model, double *noise_Nm,
+                                    hci_note *note)
+{
+    double sum = 0.0, rows = 0.0;
+    const hci_status status = hci_search_residual(s, model, note);
+    for (const hci_segment *x = NULL; !status && (x = hci_regression_next(s->regression, x)) != NULL;) {
+        double rms = hci_regression_noise(s->regression, x)->rms;
+        const double of_neighbours = hci_noise_of_neighbours(s->residual_Nm + x->first, x->count);
+        if (x->count < HCI_NOISE_LEAST && x->turns == 0 && isfinite(of_neighbours))
+            rms = fmin(rms, hypot(of_neighbours, s->resolution_Nm));
+        sum += (double)x->count * rms * rms;
+        rows += (double)x->count;
+    }
+    *noise_Nm = rows > 0.0 ? sqrt(sum / rows) : 0.0;
+    return status;
+}
+
 hci_status hci_search_coenergy(hci_search *s, hci_fitted_model *model, hci_note *note)
 {
     comparison c = {.search = s, .known = model};
     choice best = {0};
     if (!hci_search_saturates(&model->candidates) || different_currents(s->regression) < LEAST_RUNS)
         return HCI_OK;
-    c.noise_Nm = hci_search_noise_rms(s);
-    if (c.noise_Nm > BLUNT * s->resolution_Nm) return HCI_OK;
+    hci_status status = sample_noise_find(s, &model->candidates, &c.noise_Nm, note);
+    if (status || c.noise_Nm > BLUNT * s->resolution_Nm) return status;
     noise_even(s->regression, c.noise_Nm);
-    hci_status status = comparison_make(&c, note);
+    status = comparison_make(&c, note);
     if (!status) status = choose_all(&c, &best, note);
     if (!status && best.width > 0.0) {
         apply(&c, &best);

@@ -62,7 +62,7 @@ static hci_effect_coenergy_series series_of(const hci_regression *e, const hci_c
     if (!(reference_A > 0.0)) reference_A = current_of(e);
     if (!(reference_A > 0.0)) reference_A = 1.0;
     return (hci_effect_coenergy_series){e->machine->pole_pairs, saturates(fitted) ? MOST_POWER : PLAIN_POWER,
-                                        (int)fmax(0.0, order), reference_A, false};
+                                        (int)fmax(0.0, order), reference_A, false, 0};
 }
 
 /* ---- terms ---- */
