@@ -283,8 +283,8 @@ static void show_remarks(const inputs *in)
 static void prepare_check(inputs *in)
 {
     size_t count = 0;
-    for (; in->runs.origin && count < in->runs.count && count < HCI_CHECK_MOST_RUNS; ++count)
-        in->checked[count] = in->runs.origin[count].path;
+    for (size_t k = 0; in->runs.origin && k < in->runs.count && count < HCI_CHECK_MOST_RUNS; ++k)
+        if (!hci_runs_is_further_point(&in->runs, k)) in->checked[count++] = in->runs.origin[k].path;
     in->check = (hci_check_inquiry){
         .machine = in->folder, .run = in->checked, .runs = count, .reading = in->reading.run};
 }

@@ -450,8 +450,9 @@ static void judge_check(cli_tuning *t, const hci_check *c)
 static size_t checked_runs(const cli_tuning *t, const char *run[HCI_CHECK_MOST_RUNS])
 {
     size_t count = 0;
-    for (; count < t->runs.count && count < HCI_CHECK_MOST_RUNS; ++count)
-        run[count] = t->arguments->given[TUNE_RUNS] ? t->runs.origin[count].path : t->arguments->word[count];
+    for (size_t k = 0; k < t->runs.count && count < HCI_CHECK_MOST_RUNS; ++k)
+        if (!hci_runs_is_further_point(&t->runs, k))
+            run[count++] = t->arguments->given[TUNE_RUNS] ? t->runs.origin[k].path : cli_tune_log_of(t, k);
     return count;
 }
 

@@ -496,3 +496,14 @@ bool cli_tune_is_of_no_use(const cli_tuning *t)
     if (before_Nm < t->solution.tolerance_Nm) return !(t->mean_Nm > 0.0);
     return after_Nm >= before_Nm;
 }
+
+size_t cli_tune_calculated_beside(const cli_tuning *t)
+{
+    size_t tabulated = 0, measured = 0;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        tabulated += r->is_tabulated;
+        measured += r->time_s && r->torque_source == HCI_TORQUE_MEASURED;
+    }
+    return measured > 0 ? tabulated : 0;
+}

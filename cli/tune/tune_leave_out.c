@@ -44,11 +44,13 @@ static void say_left_out(cli_tuning *t, size_t k)
 /* The list and the recordings without them. */
 static hci_status read_others(cli_tuning *t, hci_note *note)
 {
+    const size_t all = t->arguments->words;
     t->kept = *t->arguments;
     t->kept.words = 0;
     for (size_t k = 0; k < t->runs.count; ++k)
-        if (!is_useless(&t->runs.run[k])) t->kept.word[t->kept.words++] = t->arguments->word[k];
-    t->left_out = t->runs.count - t->kept.words;
+        if (!is_useless(&t->runs.run[k]) && !hci_runs_is_further_point(&t->runs, k))
+            t->kept.word[t->kept.words++] = cli_tune_log_of(t, k);
+    t->left_out = all - t->kept.words;
     t->arguments = &t->kept;
     const hci_status status = cli_tune_list_logs(t, note);
     return status ? status : cli_tune_read_inputs(t, note);

@@ -172,9 +172,19 @@ static const char *source_words(const hci_run *r)
     return WORDS[r->torque_source];
 }
 
+const char *cli_tune_log_of(const cli_tuning *t, size_t k)
+{
+    const hci_run *r = &t->runs.run[k];
+    if (t->arguments->given[TUNE_RUNS]) return r->is_point ? t->runs.origin[k].path : r->name;
+    return t->arguments->word[t->runs.origin[k].row];
+}
+
 const char *cli_tune_name_of(const cli_tuning *t, size_t k)
 {
-    return t->arguments->given[TUNE_RUNS] ? t->runs.run[k].name : t->arguments->word[k];
+    const hci_run *r = &t->runs.run[k];
+    const char *folder = strrchr(r->name, '/');
+    if (!r->is_point) return cli_tune_log_of(t, k);
+    return folder ? folder + 1 : r->name;
 }
 
 /* ", 0.52 turns, 386 samples a turn, which tell orders up to 16.8": of the electrical turn. */
@@ -199,12 +209,16 @@ static void say_run(cli_tuning *t, size_t k)
         most_A = fmax(most_A, fabs(r->i_A[n]));
     if (r->time_s && r->count > 1)
         snprintf(time, sizeof time, ", %.4g s", r->time_s[r->count - 1] - r->time_s[0]);
-    if (most_A > 0.0)
+    if (r->is_point)
+        snprintf(currents, sizeof currents, "phase currents of each");
+    else if (most_A > 0.0)
         snprintf(currents, sizeof currents, "phase currents up to %.3g A%s", most_A,
                  r->lacks_id ? ", i_d in no column and taken as 0" : "");
     cover_words(r, cover, sizeof cover);
-    hci_tuning_say(&t->tuning, HCI_TUNING_READ, "%s: %zu samples%s%s; %s; %s%s", cli_tune_name_of(t, k),
-                   r->count, time, cover, source_words(r), currents, r->v_V ? "; voltages" : "");
+    if (hci_runs_is_further_point(&t->runs, k)) return;
+    hci_tuning_say(&t->tuning, HCI_TUNING_READ, "%s: %zu samples%s%s%s; %s; %s%s", cli_tune_log_of(t, k),
+                   r->count, r->is_point ? " at each operating point" : "", time, cover, source_words(r),
+                   currents, r->v_V ? "; voltages" : "");
 }
 
 static void release_inputs(cli_tuning *t)
@@ -257,7 +271,7 @@ static void say_remark(void *to, size_t first, size_t alike, const char *text)
     if (alike > 1)
         hci_tuning_say(&t->tuning, HCI_TUNING_READ, "%zu of %zu recordings: %s", alike, t->runs.count, text);
     else if (t->runs.count > 1)
-        hci_tuning_say(&t->tuning, HCI_TUNING_READ, "%s: %s", cli_tune_name_of(t, first), text);
+        hci_tuning_say(&t->tuning, HCI_TUNING_READ, "%s: %s", cli_tune_log_of(t, first), text);
     else
         hci_tuning_say(&t->tuning, HCI_TUNING_READ, "  %s", text);
 }

@@ -87,7 +87,7 @@ static bool has_held_load(const cli_tuning *t)
 static bool is_for(const cli_tuning *t, const hci_run *r, hci_waveform_quantity quantity)
 {
     if (quantity == HCI_WAVEFORM_BACK_EMF)
-        return r->v_V && cli_tune_has_no_current(t, r) && drops_nothing(t, r);
+        return r->v_V && !r->is_point && cli_tune_has_no_current(t, r) && drops_nothing(t, r);
     return r->torque_source == HCI_TORQUE_HOLDING && !has_held_load(t);
 }
 
@@ -175,7 +175,7 @@ static void add_holding(const cli_tuning *t, const hci_run *r, line_numbers *n, 
 static cli_tune_line harmonics_line(cli_tuning *t, size_t k, bool is_emf, bool is_far, line_numbers *n)
 {
     const hci_run *r = &t->runs.run[k];
-    cli_tune_line c = {{"harmonics", t->arguments->word[k]}, 2};
+    cli_tune_line c = {{"harmonics", cli_tune_log_of(t, k)}, 2};
     snprintf(n->pole_pairs, sizeof n->pole_pairs, "%d", t->declared.model.pole_pairs);
     cli_tune_add_option(&c, "quantity", is_emf ? "back_emf" : "cogging");
     cli_tune_add_option(&c, "pole-pairs", n->pole_pairs);

@@ -39,6 +39,19 @@ static void append_of_two(cli_tuning *t)
         cli_tune_name_of(t, two.first), two.first_order, cli_tune_name_of(t, two.second), two.second_order);
 }
 
+/* What was calculated and what was measured may be of two machines. */
+static void append_of_calculated(cli_tuning *t)
+{
+    const size_t calculated = cli_tune_calculated_beside(t);
+    if (calculated == 0 || !t->is_solved) return;
+    cli_tune_caveat(
+        t,
+        "%zu of %zu recordings have no time and constant currents, as finite elements give them, and others "
+        "were measured: all are taken for one machine, with magnets of one strength and one zero of the "
+        "angle, which a bench need not have, and then no bound holds; tune those of each kind alone",
+        calculated, t->runs.count);
+}
+
 /* Of the torque that is rated or asked for, from which on one without a current is more than friction. */
 #define A_LOAD 0.2
 
@@ -171,6 +184,7 @@ void cli_tune_log_caveats(cli_tuning *t)
 {
     append_of_unread(t);
     append_of_two(t);
+    append_of_calculated(t);
     append_of_command(t);
     append_of_drive(t);
 }

@@ -53,7 +53,8 @@ static bool is_sound(const cli_tuning *t)
            !cli_tune_is_without_angle(t) && !(cli_tune_strange_rpm(t) > 0.0) && !cli_tune_denied_inertia(t) &&
            !cli_tune_is_short(t) && !(t->once_a_turn_Nm > 0.0) && cli_tune_clipped(t) == 0 &&
            cli_tune_torque_clipped(t) == 0 && t->size == CLI_TUNE_USUAL && !(t->drives_Nm > 0.0) &&
-           !(fabs(t->turned_deg) > 0.0) && !(fabs(t->open_turn_deg) > 0.0);
+           !(fabs(t->turned_deg) > 0.0) && !(fabs(t->open_turn_deg) > 0.0) &&
+           cli_tune_calculated_beside(t) == 0;
 }
 
 /* Whether the table is what was wanted, of a model that can be believed. */

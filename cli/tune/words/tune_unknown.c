@@ -6,7 +6,7 @@
 #include "cli/tune/tune_cover.h"
 #include "cli/tune/tune_facts.h"
 #include "cli/tune/tune_known.h"
-#include "cli/tune/tune_options.h"
+#include "cli/tune/tune_read.h"
 
 static void say_unknown_zero(cli_tuning *t)
 {
@@ -283,7 +283,6 @@ void cli_tune_say_unknown(cli_tuning *t)
     say_limits(t);
     say_machine(t);
     for (size_t k = 0; k < t->runs.count; ++k)
-        say_recording(t, &t->runs.run[k],
-                      t->arguments->given[TUNE_RUNS] ? t->runs.run[k].name : t->arguments->word[k]);
+        say_recording(t, &t->runs.run[k], cli_tune_name_of(t, k));
     if (cli_tune_hangs_on_lag(t)) say_lag(t);
 }

@@ -247,14 +247,25 @@ static double longest_by_chance(const rows_task *t, const readings *x, const siz
     return 1.0 + log(BY_CHANCE / (double)count) / log(fmin(equal / (double)count, 0.999));
 }
 
+/* Rows without a time in which no current flows, as a table of torques over the angle has them: no reading
+ * that stays. */
+static bool is_no_current(const rows_task *t, const readings *x, size_t row)
+{
+    double most = 0.0;
+    for (size_t c = 0; c < x->columns; ++c)
+        most = fmax(most, fabs(x->column[c][row]));
+    return !t->c->ready[HCI_RUN_TIME] && x->columns > 1 && !(most > 0.0);
+}
+
 /* Leaves the rows out that repeat a reading for longer. Returns how many. */
-static size_t stretches_leave(rows_task *t, const size_t *fresh, size_t count, double longest)
+static size_t stretches_leave(rows_task *t, const readings *x, const size_t *fresh, size_t count,
+                              double longest)
 {
     size_t left_out = 0;
     for (size_t k = 0; k < count; ++k) {
         const size_t end = k + 1 < count ? fresh[k + 1] : t->rows;
         const size_t length = length_of(t, fresh, count, k);
-        if (!((double)length > longest)) continue;
+        if (!((double)length > longest) || is_no_current(t, x, fresh[k])) continue;
         for (size_t j = fresh[k] + 1; j < end; ++j)
             t->is_left[j] = false;
         left_out += length - 1;
@@ -463,7 +474,7 @@ static hci_status leave_still_out(rows_task *t, const readings *x)
     if (fresh && step) {
         const size_t count = fresh_find(t, x, fresh);
         if (count >= LEAST_FRESH && is_fine(x, fresh, count, step))
-            left_out = stretches_leave(t, fresh, count, longest_by_chance(t, x, fresh, count));
+            left_out = stretches_leave(t, x, fresh, count, longest_by_chance(t, x, fresh, count));
     }
     if (left_out > 0)
         hci_note_add(t->c->remark,
@@ -554,7 +565,7 @@ static hci_status leave_standing_out(rows_task *t, const double *angle)
     hold_angle(t, angle, held);
     const size_t count = fresh_find(t, &x, fresh);
     const double longest = stay_of_turning(t, fresh, count);
-    if (longest > 0.0) left_out = stretches_leave(t, fresh, count, longest);
+    if (longest > 0.0) left_out = stretches_leave(t, &x, fresh, count, longest);
     if (left_out > 0)
         hci_note_add(
             t->c->remark,

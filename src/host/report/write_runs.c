@@ -25,6 +25,6 @@ hci_status hci_runs_write(hci_output *out, const hci_runs *runs, const char *fol
     hci_status status = hci_output_file(out, "runs.csv", note);
     if (!status) hci_output_text(out, "file,role,columns,test\n");
     for (size_t k = 0; k < runs->count && !status; ++k)
-        status = row_write(out, runs, k, folder, note);
+        if (!hci_runs_is_further_point(runs, k)) status = row_write(out, runs, k, folder, note);
     return status;
 }

@@ -155,8 +155,8 @@ static void test_stretches_are_left_out(void)
     task.rows = 11;
     memcpy(value, values, sizeof values);
     const size_t count = fresh_find(&task, &x, fresh);
-    TEST_ASSERT_EQUAL_UINT64(0, stretches_leave(&task, fresh, count, 4.0));
-    TEST_ASSERT_EQUAL_UINT64(6, stretches_leave(&task, fresh, count, 3.0));
+    TEST_ASSERT_EQUAL_UINT64(0, stretches_leave(&task, &x, fresh, count, 4.0));
+    TEST_ASSERT_EQUAL_UINT64(6, stretches_leave(&task, &x, fresh, count, 3.0));
     for (int k = 0; k < 11; ++k)
         TEST_ASSERT_EQUAL(left[k], is_left[k]);
 }
@@ -173,6 +173,21 @@ static void test_how_many_readings_tell(void)
         TEST_ASSERT_EQUAL(HCI_OK, leave_still_out(&task, &x));
         TEST_ASSERT_EQUAL_UINT64(few < 50 ? 0 : 2 * few, task.still);
         if (few == 50) text_has("100 of 150 rows repeat the torque before: read less often", remark.text);
+    }
+}
+
+/* No current in rows without a time is that of a table; over time it is a reading that stays. */
+static void test_no_current_of_a_table(void)
+{
+    for (int timed = 0; timed < 2; ++timed) {
+        setUp();
+        task.rows = 300;
+        for (size_t k = 0; k < task.rows; ++k)
+            value[k] = k < 200 ? sqrt((double)k + 1.0) : 0.0;
+        columns.ready[HCI_RUN_TIME] = timed ? angle : NULL;
+        const readings x = {{value, value}, 2, "currents"};
+        TEST_ASSERT_EQUAL(HCI_OK, leave_still_out(&task, &x));
+        TEST_ASSERT_EQUAL_UINT64(timed ? 99 : 0, task.still);
     }
 }
 
@@ -355,6 +370,7 @@ int main(void)
     RUN_TEST(test_the_longest_stretch_by_chance);
     RUN_TEST(test_stretches_are_left_out);
     RUN_TEST(test_how_many_readings_tell);
+    RUN_TEST(test_no_current_of_a_table);
     RUN_TEST(test_a_sensor_at_its_end);
     RUN_TEST(test_what_else_repeats);
     RUN_TEST(test_both_ends);

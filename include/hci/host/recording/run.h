@@ -118,6 +118,8 @@ typedef struct {
     double angle_unit_rad;         /* a 1 of that column in rad, electrical where is_electrical; 0: none */
     double speed_unit_rad_per_s;   /* the same of the speed; 0: none was recorded */
     bool angle_is_counted;         /* the numbers of that column are whole, as an encoder counts */
+    bool is_tabulated; /* without a time, at constant currents and even angles, as torques are calculated */
+    bool is_point;                 /* one of several operating points that its file holds */
     size_t *row;                   /* [count], of the file, from 0; NULL: each row is a sample */
     hci_note remark;               /* what was supposed on reading, or "" */
 } hci_run;
@@ -197,6 +199,7 @@ typedef enum {
 typedef struct {
     char *path;    /* of the file, from where the program runs */
     char *columns; /* that options or the list name, "NAME=COLUMN;NAME=COLUMN"; or "" */
+    size_t row;    /* of the list, from 0: the points of one file have the same */
 } hci_run_origin;
 
 /* A list of runs: columns file, role, optionally note, test, columns. Start with {0}. */
@@ -218,12 +221,13 @@ typedef struct {
 /* Reads a list and its runs, whose paths are relative to it. `columns.csv` beside the list names columns of
  * all of them, before that beside a run; a cell `columns` of the list does so of one run
  * instead. A cell `test` that
- * is `holding` stands for hci_run_options.holding. HCI_ERROR_INPUT, _MEMORY. */
+ * is `holding` stands for hci_run_options.holding. A table of torques over the angle at 2 to 400 constant
+ * currents, without a time, is a run for each of them, all of the same origin. HCI_ERROR_INPUT, _MEMORY. */
 hci_status hci_runs_read(const char *path, const hci_runs_options *options, hci_runs *runs, hci_note *note);
 
-/* Reads one more run, of a file or of memory, into a list that was not read from one: its origins are not
- * known. HCI_ERROR_ARGUMENT for a list that was, _INPUT, also for a run of the same name; _MEMORY. The list
- * is as it was then. */
+/* Reads one more run, or those of a table of torques, of a file or of memory, into a list that was not read
+ * from one: its origins are not known. HCI_ERROR_ARGUMENT for a list that was, _INPUT, also for a run of the
+ * same name; _MEMORY. The list is as it was then. */
 hci_status hci_runs_add(hci_runs *runs, const char *path, hci_role role, const hci_run_options *options,
                         hci_note *note);
 
@@ -231,6 +235,9 @@ hci_status hci_runs_add(hci_runs *runs, const char *path, hci_role role, const h
  * becomes that of `more`. HCI_ERROR_INPUT where a file is in both; HCI_ERROR_MEMORY; both are as they were
  * then. */
 hci_status hci_runs_join(hci_runs *runs, hci_runs *more, hci_note *note);
+
+/* Whether a run is a further operating point of the file that the one before it is from. */
+bool hci_runs_is_further_point(const hci_runs *runs, size_t run);
 
 /* Frees what a list holds, its runs included, and empties it. */
 void hci_runs_release(hci_runs *runs);

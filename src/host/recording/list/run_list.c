@@ -16,6 +16,7 @@
 #include "host/csv/table.h"
 #include "host/recording/computed_torque.h"
 #include "host/recording/list/torque_clock.h"
+#include "host/recording/list/torque_map.h"
 #include "host/recording/run_columns.h"
 #include "host/recording/untold_torque.h"
 
@@ -227,7 +228,7 @@ static hci_status read_named(const list_reader *l, size_t row, const hci_run_opt
         return status;
     }
     l->runs->count = row + 1;
-    l->runs->origin[row] = (hci_run_origin){path, hci_column_names_text(names, 2)};
+    l->runs->origin[row] = (hci_run_origin){path, hci_column_names_text(names, 2), row};
     hci_memory_free(run->name);
     run->name = copy_of(file);
     return run->name != NULL && l->runs->origin[row].columns != NULL ? HCI_OK : memory_error(l);
@@ -342,6 +343,8 @@ hci_status hci_runs_read(const char *path, const hci_runs_options *options, hci_
         status = check_found(&l);
     else if (l.run.columns_found != NULL)
         status = refuse_absent(&l, status);
+    if (!status) status = hci_torque_maps_split(runs, 0, note);
+    if (!status) hci_torque_maps_tell(runs);
     if (!status) hci_torques_typed_leave(runs->run, runs->count);
     if (!status) hci_torques_at_one_end_tell(runs->run, runs->count);
     if (!status) status = hci_torque_clock_align(runs->run, runs->count, note);
@@ -431,7 +434,7 @@ hci_status hci_runs_add(hci_runs *runs, const char *path, hci_role role, const h
     runs->role = roles;
     if (done) {
         ++runs->count;
-        return HCI_OK;
+        return hci_torque_maps_split(runs, runs->count - 1, note);
     }
     hci_run_release(&run);
     return hci_note_memory(note, path, "a list of recordings");
