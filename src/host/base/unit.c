@@ -45,7 +45,10 @@ static const hci_unit units[] = {
     {"a.rms", CURRENT, SQRT2},
     {"aeff", CURRENT, SQRT2},
     {"a.eff", CURRENT, SQRT2},
+    {"amps.rms", CURRENT, SQRT2},
     {"apk", CURRENT, 1},
+    {"a.peak", CURRENT, 1},
+    {"amps.peak", CURRENT, 1},
     {"a.pk", CURRENT, 1},
     {"ma", CURRENT, 1e-3},
     {"ka", CURRENT, 1e3},
@@ -82,6 +85,29 @@ static const hci_unit units[] = {
     {"turns", ANGLE, 2 * HCI_PI},
     {"revolution", ANGLE, 2 * HCI_PI},
     {"revolutions", ANGLE, 2 * HCI_PI},
+    {"edeg", ANGLE, HCI_PI / 180},
+    {"eldeg", ANGLE, HCI_PI / 180},
+    {"elecdeg", ANGLE, HCI_PI / 180},
+    {"deg.e", ANGLE, HCI_PI / 180},
+    {"deg.el", ANGLE, HCI_PI / 180},
+    {"deg.el.", ANGLE, HCI_PI / 180},
+    {"deg.elec", ANGLE, HCI_PI / 180},
+    {"deg.elec.", ANGLE, HCI_PI / 180},
+    {"deg.elek", ANGLE, HCI_PI / 180},
+    {"deg.elektr", ANGLE, HCI_PI / 180},
+    {"deg.elektr.", ANGLE, HCI_PI / 180},
+    {"grad.el", ANGLE, HCI_PI / 180},
+    {"grad.el.", ANGLE, HCI_PI / 180},
+    {"grad.elektr", ANGLE, HCI_PI / 180},
+    {"rad.el", ANGLE, 1},
+    {"rad.elec", ANGLE, 1},
+    {"rad.electrical", ANGLE, 1},
+    {"mechdeg", ANGLE, HCI_PI / 180},
+    {"deg.mech", ANGLE, HCI_PI / 180},
+    {"deg.mech.", ANGLE, HCI_PI / 180},
+    {"grad.mech", ANGLE, HCI_PI / 180},
+    {"grad.mech.", ANGLE, HCI_PI / 180},
+    {"rad.mech", ANGLE, 1},
     {"rad/s", SPEED, 1},
     {"rad.s", SPEED, 1},
     {"rad/sec", SPEED, 1},
@@ -239,8 +265,23 @@ static const hci_unit *find_without_case(const char *text, size_t length)
     return NULL;
 }
 
+/* MDeg, the mechanical degrees that stand beside EDeg. */
+static bool is_mechanical_degree(const char *text, size_t length)
+{
+    return length == 4 && memcmp(text, "MDeg", 4) == 0;
+}
+
+hci_unit_turn hci_unit_turn_of(const hci_unit *unit)
+{
+    const char *spelling = unit != NULL && unit->dimension == ANGLE ? unit->spelling : "";
+    if (strstr(spelling, "mech") != NULL) return HCI_UNIT_TURN_MECHANICAL;
+    const bool is_electrical = spelling[0] == 'e' || strstr(spelling, ".e") != NULL;
+    return is_electrical ? HCI_UNIT_TURN_ELECTRICAL : HCI_UNIT_TURN_UNSAID;
+}
+
 const hci_unit *hci_unit_find(const char *text, size_t length)
 {
+    if (is_mechanical_degree(text, length)) return find_without_case("mechdeg", 7);
     return length > 0 && text[0] == 'M' ? NULL : find_without_case(text, length);
 }
 

@@ -11,6 +11,12 @@ typedef struct {
     double factor; /* to the first unit of this dimension */
 } hci_unit;
 
+/* Which turn a unit of angle is a part of, as EDeg and deg mech say it. */
+typedef enum { HCI_UNIT_TURN_UNSAID, HCI_UNIT_TURN_MECHANICAL, HCI_UNIT_TURN_ELECTRICAL } hci_unit_turn;
+
+/* unit: or NULL. */
+hci_unit_turn hci_unit_turn_of(const hci_unit *unit);
+
 /* The unit that `length` bytes of text spell, or NULL. Without regard to case, but for a leading M, which
  * would be mega and is nothing here. Empty text and "-" are the unit 1. */
 const hci_unit *hci_unit_find(const char *text, size_t length);

@@ -342,7 +342,7 @@ static size_t tail_of(const char *name, size_t length, const char *alias)
 static bool is_path(const hci_alias *alias, const char *name, size_t length)
 {
     const size_t start = tail_of(name, length, alias->name + 1);
-    return start != length && name[0] != '-' && !hci_channel_is_wanted(name, start) &&
+    return start != length && name[0] != '-' && name[start] != ' ' && !hci_channel_is_wanted(name, start) &&
            is_alike(name + start, length - start, alias->name + 1);
 }
 

@@ -34,13 +34,39 @@ static hci_column_match match_units(const hci_csv *csv, size_t column, const hci
     return result;
 }
 
+/* A header as it is compared, and what its numbers are times for the peak. */
+typedef struct {
+    const char *text;
+    char plain[HCI_CHANNEL_SIZE];
+    double amplitude;
+} compared_header;
+
+static void compare_header(const hci_csv *csv, size_t column, const hci_wanted_column *want,
+                           compared_header *h)
+{
+    h->text = hci_csv_cell(csv, 0, column);
+    h->amplitude = 1.0;
+    if (hci_column_is_along_axis(want) && hci_column_without_amplitude(h->text, h->plain, &h->amplitude))
+        h->text = h->plain;
+}
+
+/* unit: in the header or in the row of units, or NULL: Arms has the factor itself. */
+static void take_amplitude(hci_column_match *found, double amplitude, const hci_unit *unit)
+{
+    found->is_rms = amplitude > 1.0 && (unit == NULL || !hci_unit_equal(unit, hci_unit_find("Arms", 4)));
+    if (found->is_rms) found->factor *= amplitude;
+}
+
 static hci_column_match match_column(const hci_csv *csv, size_t column, const hci_wanted_column *want)
 {
-    const hci_column_match none = {.kind = HCI_COLUMN_NONE, .column = column, .factor = 1};
+    hci_column_match result = {.kind = HCI_COLUMN_NONE, .column = column, .factor = 1};
     const hci_unit *of_name;
-    return hci_column_split(hci_csv_cell(csv, 0, column), want, &of_name)
-               ? match_units(csv, column, want, of_name, want->unit)
-               : none;
+    compared_header header;
+    compare_header(csv, column, want, &header);
+    if (!hci_column_split(header.text, want, &of_name)) return result;
+    result = match_units(csv, column, want, of_name, want->unit);
+    take_amplitude(&result, header.amplitude, of_name ? of_name : hci_csv_row_unit(csv, column));
+    return result;
 }
 
 /* A name that has several meanings is what its unit says, so another dimension is no match here. */
@@ -49,13 +75,16 @@ static hci_column_match match_alias(const hci_csv *csv, size_t column, const hci
 {
     hci_column_match result = {.kind = HCI_COLUMN_NONE, .column = column, .factor = 1};
     const hci_unit *of_name;
-    if (!hci_column_split_alias(hci_csv_cell(csv, 0, column), alias, &of_name)) return result;
+    compared_header header;
+    compare_header(csv, column, want, &header);
+    if (!hci_column_split_alias(header.text, alias, &of_name)) return result;
     if (alias->unit == NULL && of_name == NULL && hci_csv_row_unit(csv, column) == NULL) return result;
     const hci_unit *otherwise =
         alias->unit != NULL ? hci_unit_find(alias->unit, strlen(alias->unit)) : want->unit;
     result = match_units(csv, column, want, of_name, otherwise);
     if (result.kind == HCI_COLUMN_OTHER_UNIT) result.kind = HCI_COLUMN_NONE;
     result.alias = alias;
+    take_amplitude(&result, header.amplitude, of_name ? of_name : hci_csv_row_unit(csv, column));
     return result;
 }
 
@@ -104,6 +133,14 @@ static const hci_unit *usual_unit(const hci_csv *csv, size_t column, const hci_u
     return unit->dimension == want->dimension ? unit : NULL;
 }
 
+/* Degrees of an electrical turn for a mechanical angle, or the other way. */
+static bool is_other_turn(const hci_unit *unit, const hci_wanted_column *want)
+{
+    const hci_unit_turn turn = hci_unit_turn_of(unit);
+    const bool is_electrical = want->base_length == 7 && want->base[6] == 'e';
+    return turn == (is_electrical ? HCI_UNIT_TURN_MECHANICAL : HCI_UNIT_TURN_ELECTRICAL);
+}
+
 /* In the unit that the user says, or the header, or the row of units, or that is usual for such a name, or in
  * the canonical one. */
 static hci_column_match find_given(const hci_csv *csv, const hci_wanted_column *want)
@@ -111,6 +148,7 @@ static hci_column_match find_given(const hci_csv *csv, const hci_wanted_column *
     const hci_unit *said;
     for (size_t k = csv->given_count; k-- > 0;) {
         const size_t column = csv->given[k].column;
+        compared_header header;
         if (!hci_column_split(csv->given[k].name, want, &said)) continue;
         if (said != NULL && said->dimension != want->unit->dimension) continue;
         hci_column_match result = {.kind = HCI_COLUMN_ONE, .column = column};
@@ -123,10 +161,13 @@ static hci_column_match find_given(const hci_csv *csv, const hci_wanted_column *
         if (unit == NULL) unit = usual_unit(csv, column, want->unit);
         if (unit == NULL) unit = want->unit;
         result.factor = unit->factor / want->unit->factor / csv->given[k].divisor;
+        compare_header(csv, column, want, &header);
+        if (said == NULL) take_amplitude(&result, header.amplitude, of_file);
         if (is_counted) result.factor /= csv->given[k].counts;
         const bool is_other = of_file != NULL && of_file->dimension != want->unit->dimension;
         if (of_file != NULL && !is_counted && !hci_unit_equal(of_file, unit) && !(is_quotient && is_other))
             result.overruled_by = csv->given[k].name;
+        if (said != NULL && is_other_turn(of_file, want)) result.overruled_by = csv->given[k].name;
         if (is_other && !is_counted && !is_quotient) result.kind = HCI_COLUMN_GIVEN_UNIT;
         return result;
     }
@@ -256,13 +297,16 @@ static hci_column_match find_by_words(const hci_csv *csv, const char *name, cons
     hci_column_match result = {.kind = HCI_COLUMN_NONE};
     for (size_t column = 0; column < csv->columns; column++) {
         const hci_unit *of_name, *of_row = hci_csv_row_unit(csv, column);
-        const hci_alias *said = hci_name_words(hci_csv_cell(csv, 0, column), of_row, &of_name);
+        compared_header header;
+        compare_header(csv, column, want, &header);
+        const hci_alias *said = hci_name_words(header.text, of_row, &of_name);
         if (said == NULL || said->column == NULL || strcmp(said->column, name) != 0 ||
             is_given(csv, column) || hci_column_has_known_name(hci_csv_cell(csv, 0, column)))
             continue;
         hci_column_match next =
             match_units(csv, column, want, of_name, hci_unit_find(said->unit, strlen(said->unit)));
         next.alias = said;
+        take_amplitude(&next, header.amplitude, of_name ? of_name : of_row);
         if (result.kind == HCI_COLUMN_ONE && strcmp(said->tool, "SINAMICS") == 0) continue; /* smoothed */
         if (next.kind != HCI_COLUMN_OTHER_UNIT && !add_match(&result, next)) break;
     }
@@ -386,17 +430,35 @@ bool hci_csv_told(const hci_csv *csv, const char *name, hci_note *told)
         tell_overruled(csv, &found, told);
         return true;
     }
+    if (found.is_rms) {
+        hci_note_set(told, HCI_OK,
+                     "%s is read as the rms of a sine: times \xE2\x88\x9A"
+                     "2 for the peak",
+                     hci_quote(hci_csv_cell(csv, 0, found.column), quoted));
+        return true;
+    }
     if (found.alias == NULL || found.alias->meaning == NULL) return false;
-    if (hci_name_words_are_clear(found.alias) && found.has_unit) return false;
+    const bool is_by_unit = hci_unit_turn_of(hci_column_unit(csv, found.column)) != HCI_UNIT_TURN_UNSAID;
+    if (hci_name_words_are_clear(found.alias) && found.has_unit && !is_by_unit) return false;
     const bool supposed = !found.has_unit && strcmp(found.alias->unit, "1") != 0;
     hci_note_set(told, HCI_OK, "%s is read as %s%s%s", hci_quote(hci_csv_cell(csv, 0, found.column), quoted),
                  found.alias->meaning, supposed ? ", in " : "", supposed ? found.alias->unit : "");
     return true;
 }
 
+/* What an angle by this name may be, beyond what is said of all. */
+static const char *of_resolver(const char *header)
+{
+    static const char *const RESOLVER[] = {"resolver", NULL};
+    return has_word_of(header, RESOLVER)
+               ? "; a resolver of one pole pair has the mechanical angle, one of as "
+                 "many as the motor the electrical one"
+               : "";
+}
+
 static hci_status unclear_error(const hci_csv *csv, size_t column, hci_note *note)
 {
-    char remedy[240];
+    char remedy[340];
     hci_csv_fault fault = {.line = hci_csv_record_line(csv, 0),
                            .column = column,
                            .name = hci_csv_cell(csv, 0, column),
@@ -414,8 +476,8 @@ static hci_status unclear_error(const hci_csv *csv, size_t column, hci_note *not
             remedy, sizeof remedy,
             "rename the column to the one it is, say --column \"theta_m=%.60s\" (theta_m_deg in degrees, "
             "theta_e of an "
-            "electrical angle), or add the speed",
-            hci_csv_cell(csv, 0, column));
+            "electrical angle), or add the speed%s",
+            hci_csv_cell(csv, 0, column), of_resolver(hci_csv_cell(csv, 0, column)));
     return hci_csv_fault_note(csv, &fault, note);
 }
 
@@ -425,11 +487,11 @@ bool hci_csv_unclear(const hci_csv *csv, size_t *column)
     for (*column = 0; *column < csv->columns; ++*column) {
         const char *header = hci_csv_cell(csv, 0, *column);
         if (is_given(csv, *column)) continue;
-        for (size_t k = 0; k < hci_alias_count; k++)
-            if (hci_aliases[k].column == NULL && hci_column_split_alias(header, &hci_aliases[k], &unit))
-                return true;
         const hci_alias *said = hci_name_words(header, hci_csv_row_unit(csv, *column), &unit);
         if (said != NULL && said->column == NULL) return true;
+        for (size_t k = 0; said == NULL && k < hci_alias_count; k++)
+            if (hci_aliases[k].column == NULL && hci_column_split_alias(header, &hci_aliases[k], &unit))
+                return true;
     }
     return false;
 }

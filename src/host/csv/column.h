@@ -24,6 +24,7 @@ typedef struct {
     double factor;            /* from the file's unit to the unit asked for */
     const hci_alias *alias;   /* by which it was found; NULL: by its own name */
     bool has_unit;            /* the file says a unit */
+    bool is_rms;              /* of a sine, by a word of the header: the factor has √2 for it */
     const char *overruled_by; /* the name by which the user says another unit than the file; NULL: none is */
 } hci_column_match;
 

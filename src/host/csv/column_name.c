@@ -26,6 +26,51 @@ const hci_unit *hci_column_unit_of_tail(const char *tail)
     return *tail == '(' || *tail == '[' ? hci_csv_cell_unit(tail) : NULL;
 }
 
+/* ---- a word for the amplitude behind the name ---- */
+
+#define SQRT2 1.4142135623730951
+
+/* "peak" or "rms", in whatever brackets, from `at` on; where it ends, or NULL: there is none. */
+static const char *amplitude_end(const char *at, double *factor)
+{
+    static const struct {
+        const char *word;
+        double factor;
+    } WORDS[] = {{"peak", 1.0},  {"pk", 1.0},    {"crest", 1.0},     {"scheitelwert", 1.0},
+                 {"rms", SQRT2}, {"eff", SQRT2}, {"effektiv", SQRT2}};
+    at += strspn(at, " _,");
+    const char *close = *at == '(' ? ")" : *at == '[' ? "]" : "";
+    at += *close != '\0';
+    for (size_t k = 0; k < sizeof WORDS / sizeof *WORDS; ++k) {
+        const size_t length = strlen(WORDS[k].word);
+        if (!hci_text_begins(at, WORDS[k].word, length)) continue;
+        const char *end = at + length;
+        if (*close != '\0' && *end != *close) continue;
+        end += *close != '\0';
+        if (*end != '\0' && strchr(" _([/,", *end) == NULL) continue;
+        *factor = WORDS[k].factor;
+        return end;
+    }
+    return NULL;
+}
+
+bool hci_column_is_along_axis(const hci_wanted_column *want)
+{
+    return want->base_length == 2 && strchr("iv", want->base[0]) != NULL &&
+           strchr("dq", want->base[1]) != NULL;
+}
+
+bool hci_column_without_amplitude(const char *header, char plain[HCI_CHANNEL_SIZE], double *factor)
+{
+    for (size_t k = 1; header[0] != '\0' && header[k] != '\0'; ++k) {
+        const char *end = strchr(" _,([", header[k]) != NULL ? amplitude_end(header + k, factor) : NULL;
+        if (end == NULL) continue;
+        const int used = snprintf(plain, HCI_CHANNEL_SIZE, "%.*s%s", (int)k, header, end);
+        return used > 0 && used < HCI_CHANNEL_SIZE;
+    }
+    return false;
+}
+
 /* ---- a word for the quantity before the name ---- */
 
 enum { MOST_BARE = 64 };

@@ -46,16 +46,19 @@ static const struct {
     [TIME] = {"time", "zeit uhrzeit zeitstempel messzeit time timestamp timestamps temps heure horodatage "
                       "tempo ora tiempo hora"},
     [ANGLE] = {"angle", "winkel drehwinkel rotorwinkel wellenwinkel winkelposition rotorlage lauferlage "
-                        "laeuferlage lauferwinkel laeuferwinkel angle ang agl angolo angulo theta phi"},
+                        "laeuferlage lauferwinkel laeuferwinkel rotorposition lauferposition "
+                        "laeuferposition wellenlage motorwinkel motorlage motorposition resolverwinkel "
+                        "resolverlage resolverposition geberwinkel geberlage geberposition encoderwinkel "
+                        "encoderposition angle ang agl angolo angulo theta phi"},
     [POSITION] = {"angle, of what turns or in a unit of angle",
                   "position pos lage istlage istposition lageistwert positionsistwert posizione posicion"},
-    [SPEED] =
-        {"speed",
-         "drehzahl istdrehzahl drehzahlistwert motordrehzahl winkelgeschwindigkeit geschwindigkeit speed "
-         "velocity velo vel spd vitesse regime velocita velocidad giri"},
+    [SPEED] = {"speed", "drehzahl istdrehzahl drehzahlistwert motordrehzahl wellendrehzahl rotordrehzahl "
+                        "winkelgeschwindigkeit geschwindigkeit speed "
+                        "velocity velo vel spd vitesse regime velocita velocidad giri"},
     [TORQUE] = {"torque",
-                "drehmoment moment wellenmoment motormoment istmoment istdrehmoment momentenistwert "
-                "drehmomentistwert drehmomentsensor messwelle torque trq couple coppia par"},
+                "drehmoment moment wellenmoment wellendrehmoment motormoment motordrehmoment istmoment "
+                "istdrehmoment momentenistwert "
+                "drehmomentistwert drehmomentsensor messwelle torque trq couple coppia par momento"},
     [CURRENT] =
         {"current",
          "strom phasenstrom strangstrom motorstrom iststrom stromistwert current curr courant intensite "
@@ -81,9 +84,9 @@ static const struct {
                   "medida sensor aufnehmer messnabe messflansch capteur couplemetre sensore torsiometro "
                   "transducer torquemeter external extern"},
     [ACTUAL] = {"actual", "ist istwert actual act reel attuale feedback fb retour"},
-    [ROTOR] =
-        {"rotor or motor",
-         "rotor laufer laeufer motor mot moteur motore magnet aimant magnete encoder drehgeber geber codeur"},
+    [ROTOR] = {"rotor or motor", "rotor rotore laufer laeufer motor mot moteur motore magnet aimant magnete "
+                                 "encoder drehgeber geber codeur "
+                                 "resolver codificador"},
     [SHAFT] = {"shaft", "welle motorwelle shaft arbre albero eje"},
     [PHASE] = {"phase",
                "phase pha fase strang leiter klemme klemmen terminal terminals borne bornes morsetto"},
@@ -221,6 +224,15 @@ static void drop_type(name_words *w)
 {
     if (w->count < 2 || !is_among("f lr", w->word[0])) return;
     memmove(w->word, w->word + 1, --w->count * sizeof *w->word);
+}
+
+/* "Drehmoment M", "Drehzahl n": the symbol behind the word says the same. */
+static void pass_symbols(name_words *w)
+{
+    for (size_t k = 1; k < w->count; ++k)
+        if ((is_among("m md t", w->word[k]) && w->kind[k - 1] == TORQUE) ||
+            (is_among("n", w->word[k]) && w->kind[k - 1] == SPEED))
+            w->kind[k] = SMALL;
 }
 
 /* A letter of a quantity at the beginning, alone or before that of a phase: "M Welle", "n ist", "Iq ist",
@@ -370,13 +382,22 @@ static bool is_turn(const hci_unit *unit)
     return is_in(unit, "rad") && hci_unit_equal(unit, hci_unit_find("turn", 4));
 }
 
+/* By its name, and by its unit where that says it (EDeg). */
+static const hci_alias *angle_by(bool is_mechanical, bool is_electrical, const hci_unit *unit)
+{
+    const hci_unit_turn turn = hci_unit_turn_of(unit);
+    is_mechanical = is_mechanical || turn == HCI_UNIT_TURN_MECHANICAL;
+    is_electrical = is_electrical || turn == HCI_UNIT_TURN_ELECTRICAL;
+    return is_mechanical != is_electrical ? &OF_ANGLE[is_electrical] : &OF_ANGLE[2];
+}
+
 /* Where is not how far it has turned, as long as nothing says that it turns. */
 static const hci_alias *angle_of(const name_words *w, const hci_unit *unit)
 {
     const bool turns = has(w, TURNING) || has(w, ROTOR) || has(w, SHAFT) || is_in(unit, "rad");
     if ((has(w, POSITION) && !has(w, ANGLE) && !turns) || has(w, PHASE)) return NULL;
     if (has(w, POSITION) && is_turn(unit)) return &OF_ANGLE[has(w, ELECTRICAL)];
-    return has(w, MECHANICAL) != has(w, ELECTRICAL) ? &OF_ANGLE[has(w, ELECTRICAL)] : &OF_ANGLE[2];
+    return angle_by(has(w, MECHANICAL), has(w, ELECTRICAL), unit);
 }
 
 /* What a drive calls the actual torque is its current in other words, unless a sensor or the shaft is named.
@@ -475,6 +496,7 @@ static const hci_alias *say(const char *name, size_t length, const hci_unit *uni
         w.kind[k] = kind_of(w.word[k]);
     for (size_t k = 0; k < w.count; ++k) /* "Zeit 1" */
         if (w.kind[k] == LETTER && has(&w, TIME)) w.kind[k] = NUMBER;
+    pass_symbols(&w);
     read_letter(&w, unit);
     read_phase(&w, unit);
     if (!is_sound(&w) || (unit == NULL && is_short(&w))) return NULL;
@@ -596,11 +618,23 @@ static const hci_alias *say_with_unit(const char *name, const hci_unit *of_row, 
     return ends_in_unit(name) ? NULL : say(name, length, of_row);
 }
 
+/* A name of an angle of either kind whose unit says which; NULL: it is none such. */
+static const hci_alias *say_by_unit(const char *name, const hci_unit *of_row, const hci_unit **unit)
+{
+    for (size_t k = 0; k < hci_alias_count; ++k) {
+        if (hci_aliases[k].column != NULL || !hci_column_split_alias(name, &hci_aliases[k], unit)) continue;
+        const hci_unit *said = *unit != NULL ? *unit : of_row;
+        if (hci_unit_turn_of(said) != HCI_UNIT_TURN_UNSAID) return angle_by(false, false, said);
+    }
+    return NULL;
+}
+
 const hci_alias *hci_name_words(const char *name, const hci_unit *of_row, const hci_unit **unit)
 {
     char channel[HCI_CHANNEL_SIZE];
     bool is_of_place;
     const hci_alias *said = hci_parameter_name(name, unit);
+    if (said == NULL) said = say_by_unit(name, of_row, unit);
     if (said == NULL) said = say_with_unit(name, of_row, unit);
     if (said != NULL || !hci_channel_name(name, channel, &is_of_place)) return said;
     said = say_with_unit(channel, of_row, unit);
@@ -610,10 +644,14 @@ const hci_alias *hci_name_words(const char *name, const hci_unit *of_row, const 
 bool hci_column_has_known_name(const char *name)
 {
     const hci_unit *unit;
+    char plain[HCI_CHANNEL_SIZE];
+    double factor;
+    const bool has_amplitude = hci_column_without_amplitude(name, plain, &factor);
     for (size_t k = 0; k < hci_alias_count; k++) {
-        if (hci_aliases[k].column == NULL) continue;
+        if (hci_aliases[k].column == NULL || strcmp(hci_aliases[k].name, "theta") == 0) continue;
         const hci_wanted_column want = hci_wanted_column_of(hci_aliases[k].column);
-        if (hci_column_split_alias(name, &hci_aliases[k], &unit) || hci_column_split(name, &want, &unit))
+        const char *shown = has_amplitude && hci_column_is_along_axis(&want) ? plain : name;
+        if (hci_column_split_alias(shown, &hci_aliases[k], &unit) || hci_column_split(shown, &want, &unit))
             return true;
     }
     return false;

@@ -278,11 +278,25 @@ static hci_status check_one_meaning(const hci_column_names *names, const hci_col
     return HCI_OK;
 }
 
+/* "i_d" and "v_ab_mV", as messages and pages write them: "id", "vab_mV". */
+static void drop_subscript(char *name)
+{
+    static const char *const SUBSCRIPTS[] = {"d", "q", "a", "b", "c", "ab", "bc", "ca"};
+    if ((name[0] != 'i' && name[0] != 'v') || name[1] != '_') return;
+    const size_t length = strcspn(name + 2, "_");
+    for (size_t k = 0; k < sizeof SUBSCRIPTS / sizeof *SUBSCRIPTS; ++k)
+        if (strlen(SUBSCRIPTS[k]) == length && memcmp(SUBSCRIPTS[k], name + 2, length) == 0) {
+            memmove(name + 1, name + 2, strlen(name + 2) + 1);
+            return;
+        }
+}
+
 /* The same of what may be no name of a quantity: then `bad`. */
 static hci_status add(hci_column_names *names, hci_column_name item, hci_status bad, hci_note *note)
 {
     hci_status status = HCI_OK;
     const bool is_whole = item.name != NULL && item.column != NULL && item.from != NULL;
+    if (is_whole) drop_subscript(item.name);
     if (is_whole && !check_offset(&item, bad, &status, note) && !is_quantity(item.name) &&
         !is_left_out(item.name))
         status = unknown_name(&item, bad, note);

@@ -215,6 +215,35 @@ static const struct {
     {"r0079 Torque setpoint total [Nm]", ""},
     {"r632", ""},
     {"r63x", ""},
+    /* units that say which turn */
+    {"Rotor Position (EDeg)", "theta_e_rad"},
+    {"Rotor Position (MDeg)", "theta_m_rad"},
+    {"Rotor angle[deg]", "unclear"},
+    {"theta [deg el]", "theta_e_rad"},
+    {"theta_edeg", "theta_e_rad"},
+    {"Rotorlage [° el.]", "theta_e_rad"},
+    {"Winkel (°mech)", "theta_m_rad"},
+    {"Mech. angle (EDeg)", "unclear"},
+    {"Elec. position [deg]", "theta_e_rad"},
+    /* words for an amplitude, of d and q alone */
+    {"Id (Peak)", "id_A"},
+    {"Iq (RMS)", "iq_A"},
+    {"Iq rms [A]", "iq_A"},
+    {"Id_peak_A", "id_A"},
+    {"Strom q (eff) [A]", "iq_A"},
+    {"Ia (Peak)", ""},
+    {"Ia (RMS)", ""},
+    {"Iq (max)", ""},
+    /* what engineers write */
+    {"Resolverwinkel", "unclear"},
+    {"Resolver position [deg]", "unclear"},
+    {"Geberwinkel [°]", "unclear"},
+    {"Posizione rotore [°]", "unclear"},
+    {"Drehzahl n [1/min]", "speed_rad_per_s"},
+    {"Drehmoment M [Nm]", "torque_Nm"},
+    {"Wellendrehmoment [Nm]", "torque_Nm"},
+    {"Momento [Nm]", "torque_Nm"},
+    {"Strom", ""},
 };
 
 static void test_names_in_words(void)
@@ -302,6 +331,71 @@ static void test_cells_with_their_unit(void)
     hci_csv_free(csv);
     TEST_ASSERT_EQUAL(HCI_OK, read_text("Time,i_q\n1.001 sec,2 V\n", &csv, &note));
     TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_csv_numbers(csv, "iq_A", &value, &note));
+    hci_csv_free(csv);
+}
+
+static void told_is(const hci_csv *csv, const char *column, const char *words)
+{
+    hci_note told = {{0}};
+    TEST_ASSERT_TRUE(hci_csv_told(csv, column, &told));
+    text_has(words, told.text);
+}
+
+/* Motor-CAD: names with their amplitude, units in a row of their own. */
+static void test_amplitudes_and_electrical_degrees(void)
+{
+    hci_note note = {{0}};
+    hci_csv *csv;
+    TEST_ASSERT_EQUAL(HCI_OK, read_text("Rotor Position (EDeg);Id (Peak);Iq (RMS);Torque\n"
+                                        "EDeg;Amps;Amps;Nm\n0;-90;1;2\n1;-80;3;4\n",
+                                        &csv, &note));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-14, REF_PI / 180.0, second_number(csv, "theta_e_rad"));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, -80.0, second_number(csv, "id_A"));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 3.0 * 1.4142135623730951, second_number(csv, "iq_A"));
+    told_is(csv, "theta_e_rad", "`Rotor Position (EDeg)` is read as the electrical angle");
+    told_is(csv, "iq_A", "`Iq (RMS)` is read as the rms of a sine: times √2 for the peak");
+    TEST_ASSERT_FALSE(hci_csv_told(csv, "id_A", &note));
+    hci_csv_free(csv);
+}
+
+static void rms_is(const char *table, double iq_A)
+{
+    hci_note note = {{0}};
+    hci_csv *csv;
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, read_text(table, &csv, &note), note.text);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, iq_A, second_number(csv, "iq_A"));
+    hci_csv_free(csv);
+}
+
+/* √2 comes once, whichever of name and unit says rms. */
+static void test_rms_said_once(void)
+{
+    rms_is("t,Iq rms [Arms]\n0,1\n1,2\n", 2.0 * 1.4142135623730951);
+    rms_is("t,Iq rms [mA]\n0,1\n1,2\n", 2e-3 * 1.4142135623730951);
+    rms_is("t,Iq peak [A]\n0,1\n1,2\n", 2.0);
+}
+
+/* A name of the user's says nothing of the amplitude, one with a unit does. */
+static void test_rms_of_a_given_column(void)
+{
+    hci_note note = {{0}};
+    hci_csv *csv;
+    TEST_ASSERT_EQUAL(HCI_OK, read_text("t,Iq (RMS)\n0,1\n1,2\n", &csv, &note));
+    TEST_ASSERT_EQUAL(HCI_OK, hci_csv_give(csv, "iq", 1, &note));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0 * 1.4142135623730951, second_number(csv, "iq_A"));
+    TEST_ASSERT_EQUAL(HCI_OK, hci_csv_give(csv, "iq_A", 1, &note));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 2.0, second_number(csv, "iq_A"));
+    hci_csv_free(csv);
+}
+
+static void test_a_resolver_may_be_either(void)
+{
+    hci_note note = {{0}};
+    hci_csv *csv;
+    TEST_ASSERT_EQUAL(HCI_OK, read_text("Resolverwinkel [deg],torque\n0,1\n1,2\n", &csv, &note));
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, hci_csv_check_clear(csv, &note));
+    text_has("--column \"theta_m=Resolverwinkel [deg]\"", note.text);
+    text_has("a resolver of one pole pair has the mechanical angle", note.text);
     hci_csv_free(csv);
 }
 
@@ -436,6 +530,10 @@ int main(void)
     RUN_TEST(test_units_of_other_languages);
     RUN_TEST(test_cells_with_their_unit);
     RUN_TEST(test_units_of_parameters);
+    RUN_TEST(test_amplitudes_and_electrical_degrees);
+    RUN_TEST(test_rms_said_once);
+    RUN_TEST(test_rms_of_a_given_column);
+    RUN_TEST(test_a_resolver_may_be_either);
     RUN_TEST(test_rows_without_names);
     RUN_TEST(test_a_clock_below_its_format);
     RUN_TEST(test_what_is_told);

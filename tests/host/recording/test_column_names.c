@@ -75,6 +75,22 @@ static void test_names_in_one_text(void)
     TEST_ASSERT_EQUAL_STRING("a=b", names.item[0].column);
 }
 
+/* As messages and pages write them. */
+static void test_names_with_subscripts(void)
+{
+    static const char *const SAID[][2] = {
+        {"i_d=A", "id"},          {"i_q_mA=A", "iq_mA"},  {"i_a=A", "ia"},
+        {"v_ab_V=A", "vab_V"},    {"v_q=A", "vq"},        {"iq=A", "iq"},
+        {"theta_m=A", "theta_m"}, {"torque=A", "torque"}, {"speed=A", "speed"}};
+    for (size_t k = 0; k < sizeof SAID / sizeof *SAID; ++k) {
+        TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, add_text(SAID[k][0]), note.text);
+        TEST_ASSERT_EQUAL_STRING(SAID[k][1], names.item[0].name);
+    }
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, add_text("i_dq=A"));
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, add_text("i_=A"));
+    TEST_ASSERT_EQUAL(HCI_ERROR_INPUT, add_text("i_d=A;id=B;i_d_A=A"));
+}
+
 /* A part without a name, a sign or a column; what follows a good one is told with its rest. */
 static void test_texts_that_are_no_names(void)
 {
@@ -633,6 +649,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_names_in_one_text);
+    RUN_TEST(test_names_with_subscripts);
     RUN_TEST(test_texts_that_are_no_names);
     RUN_TEST(test_columns_without_a_name);
     RUN_TEST(test_a_column_that_is_left_out);
