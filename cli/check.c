@@ -11,6 +11,7 @@
 #include "cli/terminal/say.h"
 #include "cli/terminal/terminal.h"
 #include "cli/terminal/text.h"
+#include "hci/host/base/number.h"
 #include "hci/host/check/check.h"
 #include "hci/host/currents/solution_folder.h"
 #include "hci/host/currents/table_rotation.h"
@@ -67,7 +68,7 @@ static const char *sure(double probability, char text[32])
     if (probability >= 0.9995)
         snprintf(text, 32, "more than 99.9 %%");
     else
-        snprintf(text, 32, "%.3g %%", 100.0 * probability);
+        snprintf(text, 32, "%s %%", HCI_PERCENT(100.0 * probability, 3));
     return text;
 }
 

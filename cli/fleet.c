@@ -8,6 +8,7 @@
 #include "cli/terminal/say.h"
 #include "cli/terminal/terminal.h"
 #include "cli/terminal/text.h"
+#include "hci/host/base/number.h"
 #include "hci/host/report/fleet/write.h"
 #include "hci/host/report/summary.h"
 
@@ -72,8 +73,8 @@ static void show(const hci_line *l)
         cli_say("  no parameters: only motors of batch --command fit or diagnose are compared\n");
         return;
     }
-    cli_say("  limit        %.3g standard deviations, which %.3g %% of sound motors exceed\n", l->limit,
-            100.0 * l->false_alarms);
+    cli_say("  limit        %.3g standard deviations, which %s %% of sound motors exceed\n", l->limit,
+            HCI_PERCENT(100.0 * l->false_alarms, 3));
     show_odd(l);
     for (size_t k = 0; k < l->parameters; ++k) {
         const hci_line_parameter *p = &l->parameter[k];

@@ -7,6 +7,7 @@
 #include "cli/terminal/say.h"
 #include "cli/terminal/terminal.h"
 #include "cli/terminal/text.h"
+#include "hci/host/base/number.h"
 #include "hci/host/drive/drive_facts.h"
 #include "hci/host/report/summary.h"
 #include "hci/host/report/write.h"
@@ -90,8 +91,8 @@ static void show_reading(const hci_drive_facts *f)
 static void show_response(const hci_drive_facts *f)
 {
     if (f->response_count == 0) return;
-    cli_say("  response     at most %.3g %% off what these gains make of R and L, at %.4g Hz\n",
-            100.0 * f->response_off, f->response_off_Hz);
+    cli_say("  response     at most %s %% off what these gains make of R and L, at %.4g Hz\n",
+            HCI_PERCENT(100.0 * f->response_off, 3), f->response_off_Hz);
     if (f->reading != HCI_RESPONSE_AS_DECLARED) show_reading(f);
 }
 

@@ -12,6 +12,7 @@
 #include "cli/terminal/say.h"
 #include "cli/terminal/terminal.h"
 #include "cli/terminal/text.h"
+#include "hci/host/base/number.h"
 #include "hci/host/diagnose/again.h"
 
 /* What no effect explains is in no machine, whatever the table calls it. */
@@ -47,10 +48,12 @@ static void show_again(const hci_again *a)
 static void show_resolution(const hci_resolution *r)
 {
     char words[1024];
-    cli_say("  old currents mean %.4g N·m, rms error %.3g N·m, T_ripple %.3g %% on the corrected machine\n",
-            r->old_currents.mean_Nm, r->old_currents.rms_error_Nm, r->old_currents.T_ripple_percent);
-    cli_say("  new currents mean %.4g N·m, rms error %.3g N·m, T_ripple %.3g %%, copper %.3f × the old\n",
-            r->new_currents.mean_Nm, r->new_currents.rms_error_Nm, r->new_currents.T_ripple_percent,
+    cli_say("  old currents mean %.4g N·m, rms error %.3g N·m, T_ripple %s %% on the corrected machine\n",
+            r->old_currents.mean_Nm, r->old_currents.rms_error_Nm,
+            HCI_PERCENT(r->old_currents.T_ripple_percent, 3));
+    cli_say("  new currents mean %.4g N·m, rms error %.3g N·m, T_ripple %s %%, copper %.3f × the old\n",
+            r->new_currents.mean_Nm, r->new_currents.rms_error_Nm,
+            HCI_PERCENT(r->new_currents.T_ripple_percent, 3),
             r->after.mean_square_A2 / r->before.mean_square_A2);
     hci_expected_ripple_words(&r->after.expected, words, sizeof words);
     cli_say("  new currents on the real machine\n");
@@ -148,9 +151,10 @@ static void draw_runs(const hci_diagnosis *d)
 
 void cli_show_convention(const hci_check_finding *f)
 {
-    cli_say("check finds: %s (%.3g %% sure): %s:%zu: column %s: found %s, should be %s; mend that "
+    cli_say("check finds: %s (%s %% sure): %s:%zu: column %s: found %s, should be %s; mend that "
             "first and diagnose again\n\n",
-            f->words, 100.0 * f->probability, f->file, f->line, f->column, f->found, f->should_be);
+            f->words, HCI_PERCENT(100.0 * f->probability, 3), f->file, f->line, f->column, f->found,
+            f->should_be);
 }
 
 void cli_show_diagnosis(const hci_diagnosis *d, const hci_resolution *r, const char *machine,

@@ -4,6 +4,7 @@
 
 #include "cli/terminal/say.h"
 #include "cli/terminal/text.h"
+#include "hci/host/base/number.h"
 #include "hci/math/harmonic.h"
 
 /* What was looked at, the one that was written marked. */
@@ -93,11 +94,11 @@ static void show_voltage(const hci_emit_loop_result *result)
 static void show_response(const hci_emit_loop_result *result)
 {
     if (!isfinite(result->response_error)) return;
-    cli_say("               known to %.2g %% between its points",
-            fmax(KNOWN_PERCENT, 100.0 * result->response_error));
+    cli_say("               known to %s %% between its points",
+            HCI_PERCENT(fmax(KNOWN_PERCENT, 100.0 * result->response_error), 2));
     if (isfinite(result->response_ripple_percent) && result->response_rad_per_s > 0.0)
-        cli_say("; by that compensation can be off in T_ripple by %.2g %% at %.4g rpm",
-                fmax(KNOWN_PERCENT, result->response_ripple_percent),
+        cli_say("; by that compensation can be off in T_ripple by %s %% at %.4g rpm",
+                HCI_PERCENT(fmax(KNOWN_PERCENT, result->response_ripple_percent), 2),
                 result->response_rad_per_s * 30.0 / HCI_PI);
     cli_say("\n");
 }

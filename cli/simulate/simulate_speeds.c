@@ -12,6 +12,7 @@
 #include "cli/terminal/say.h"
 #include "cli/terminal/terminal.h"
 #include "cli/terminal/text.h"
+#include "hci/host/base/number.h"
 #include "hci/host/currents/solution_folder.h"
 #include "hci/host/machine/effects.h"
 #include "hci/host/report/summary.h"
@@ -113,11 +114,12 @@ static void show_limit(const char *what, double speed_rad_per_s, const char *whe
 static void show_response(const hci_speeds *s)
 {
     if (!isfinite(s->response_error)) return;
-    cli_say("  loop.csv is known to %.2g %% between its points",
-            fmax(KNOWN_PERCENT, 100.0 * s->response_error));
+    cli_say("  loop.csv is known to %s %% between its points",
+            HCI_PERCENT(fmax(KNOWN_PERCENT, 100.0 * s->response_error), 2));
     for (size_t k = 0; k < s->count && s->torque_Nm != 0.0; ++k)
-        cli_say("%s%.2g %% at %.4g rpm", k == 0 ? "; by that compensation can be off in T_ripple by " : ", ",
-                fmax(KNOWN_PERCENT, s->row[k].response_ripple_percent), rpm(s->row[k].speed_rad_per_s));
+        cli_say("%s%s %% at %.4g rpm", k == 0 ? "; by that compensation can be off in T_ripple by " : ", ",
+                HCI_PERCENT(fmax(KNOWN_PERCENT, s->row[k].response_ripple_percent), 2),
+                rpm(s->row[k].speed_rad_per_s));
     cli_say("\n");
 }
 
@@ -139,8 +141,8 @@ static void show_means(const hci_speeds *s)
     for (size_t k = 0; k < s->count && s->torque_Nm != 0.0; ++k) {
         if (is_made(s, k)) continue;
         if (is_first)
-            cli_say("\n  mean torque in N·m at speeds where one is more than %g %% off %.4g N·m\n",
-                    100.0 * MADE, s->torque_Nm);
+            cli_say("\n  mean torque in N·m at speeds where one is more than %s %% off %.4g N·m\n",
+                    HCI_PERCENT(100.0 * MADE, 6), s->torque_Nm);
         is_first = false;
         cli_say("  %7.5g rpm ", rpm(s->row[k].speed_rad_per_s));
         for (int r = 0; r < HCI_REMEDIES; ++r)
@@ -226,8 +228,8 @@ static void show_exceeded(const hci_speeds *s, const cli_speeds_words *w)
 static void show_beyond(const hci_speeds *s)
 {
     if (s->reached_V < 0.8 * s->dc_link_V)
-        cli_say("  dead time takes %.3g %% of the dc link; %.4g of %.4g V are left\n",
-                100.0 * (1.0 - s->reached_V / s->dc_link_V), s->reached_V, s->dc_link_V);
+        cli_say("  dead time takes %s %% of the dc link; %.4g of %.4g V are left\n",
+                HCI_PERCENT(100.0 * (1.0 - s->reached_V / s->dc_link_V), 3), s->reached_V, s->dc_link_V);
     for (size_t k = 0; k < s->count; ++k)
         if (s->row[k].back_emf_V > s->reached_V)
             cli_say("  at %.4g rpm the back-EMF alone takes a dc link of %.4g V, of which there are %.4g: "
@@ -245,8 +247,8 @@ static void show(const hci_speeds *s, const cli_speeds_words *w)
     cli_say("        speed         sine        table         lead compensation  feedforward   needed\n");
     show_rows(s, false);
     if (s->model_error > 0.0 && s->torque_Nm != 0.0) {
-        cli_say("\n  the same, the worst of machines whose R, L and flux are %.3g %% off\n",
-                100.0 * s->model_error);
+        cli_say("\n  the same, the worst of machines whose R, L and flux are %s %% off\n",
+                HCI_PERCENT(100.0 * s->model_error, 3));
         show_rows(s, true);
     }
     show_means(s);

@@ -8,6 +8,7 @@
 #include "cli/terminal/rows.h"
 #include "cli/terminal/say.h"
 #include "cli/terminal/text.h"
+#include "hci/host/base/number.h"
 #include "hci/math/harmonic.h"
 
 /* A ripple that is rounding is none. */
@@ -18,7 +19,7 @@ static void show_share(const char *name, double percent)
     if (percent < ROUNDING_percent)
         cli_say("%s 0 %%", name);
     else
-        cli_say("%s %.4g %%", name, percent);
+        cli_say("%s %s %%", name, HCI_PERCENT(percent, 4));
 }
 
 static void show_torque(const hci_simulation *s)
@@ -125,8 +126,8 @@ static void show_spectrum(const hci_simulation *s)
         x.largest_Nm = fmax(x.largest_Nm, largest_of(&x, x.pick[k]));
     if (compared)
         snprintf(caption + length, sizeof caption - length,
-                 "; before: the plain fundamental of %.4g A as it should flow, T_ripple %.4g %%",
-                 s->plain_amplitude_A, s->plain.T_ripple_percent);
+                 "; before: the plain fundamental of %.4g A as it should flow, T_ripple %s %%",
+                 s->plain_amplitude_A, HCI_PERCENT(s->plain.T_ripple_percent, 4));
     cli_draw(&(cli_chart){.caption = caption,
                           .column = compared ? COMPARED : ALONE,
                           .columns = compared ? 5 : 3,

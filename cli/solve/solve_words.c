@@ -7,6 +7,7 @@
 #include "cli/terminal/rows.h"
 #include "cli/terminal/say.h"
 #include "cli/terminal/text.h"
+#include "hci/host/base/number.h"
 
 /* ---- spectrum ---- */
 
@@ -129,13 +130,13 @@ static void show_least(double ratio)
     if (ratio >= 2.0)
         cli_say("%.3g × the least that the wanted torque takes", ratio);
     else if (ratio >= 1.0005)
-        cli_say("%.2g %% above the least that the wanted torque takes", 100.0 * (ratio - 1.0));
+        cli_say("%s %% above the least that the wanted torque takes", HCI_PERCENT(100.0 * (ratio - 1.0), 2));
     else if (ratio > 0.9995)
         cli_say("the least that the wanted torque takes");
     else
-        cli_say("%.2g %% less than the wanted torque takes at every angle: orders that are free or not made "
+        cli_say("%s %% less than the wanted torque takes at every angle: orders that are free or not made "
                 "save it",
-                100.0 * (1.0 - ratio));
+                HCI_PERCENT(100.0 * (1.0 - ratio), 2));
 }
 
 /* Whether a phase is limited to no current. */
@@ -317,9 +318,8 @@ static void show_cost(const hci_solution *s)
         show_trade(s, mean_Nm);
     }
     if (s->limit_cost == HCI_COST_LIMITS)
-        cli_say(
-            "  limits       no current keeps them; the given one would with all of them wider by %.3g %%\n",
-            100.0 * s->exceeded_share);
+        cli_say("  limits       no current keeps them; the given one would with all of them wider by %s %%\n",
+                HCI_PERCENT(100.0 * s->exceeded_share, 3));
 }
 
 static void show_limits(const hci_solution *s)
@@ -364,11 +364,11 @@ static void show_ripple(const hci_solution *s)
     if (!isfinite(s->T_ripple_percent)) return;
     cli_say("  T_ripple     ");
     if (s->T_ripple_percent < LEAST_PERCENT)
-        cli_say("below %g %%", LEAST_PERCENT);
+        cli_say("below %s %%", HCI_PERCENT(LEAST_PERCENT, 6));
     else
-        cli_say("%.3g %%", s->T_ripple_percent);
+        cli_say("%s %%", HCI_PERCENT(s->T_ripple_percent, 3));
     if (isfinite(s->T_ripple_before_percent))
-        cli_say("; of the plain fundamental %.3g %%", s->T_ripple_before_percent);
+        cli_say("; of the plain fundamental %s %%", HCI_PERCENT(s->T_ripple_before_percent, 3));
     cli_say("\n");
 }
 

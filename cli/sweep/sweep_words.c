@@ -4,6 +4,7 @@
 
 #include "cli/terminal/say.h"
 #include "cli/terminal/text.h"
+#include "hci/host/base/number.h"
 #include "hci/host/base/unit.h"
 
 enum { MOST_ROWS = 24, MOST_REASONS = 5 };
@@ -17,18 +18,18 @@ static void show_least(const hci_grid *s, bool of_copper, double percent, const 
         cli_say("  %-12s not within these limits\n", what);
         return;
     }
-    cli_say("  %-12s %.4g %s%s: T_ripple %.3g %%, peak %.4g A, copper %.4g × the plain sine\n", what,
+    cli_say("  %-12s %.4g %s%s: T_ripple %s %%, peak %.4g A, copper %.4g × the plain sine\n", what,
             of_copper ? row->point.limit_copper : row->point.limit_current_A, of_copper ? "×" : "A",
             row == s->row + (of_copper ? s->plan.by_current : 0) ? " (the first that was tried)" : "",
-            row->best.T_ripple_percent, row->best.peak_A, row->best.loss_to_plain);
+            HCI_PERCENT(row->best.T_ripple_percent, 3), row->best.peak_A, row->best.loss_to_plain);
 }
 
 static void show_trade_off(const hci_grid *s)
 {
     for (size_t k = 0; k < s->plan.count; ++k)
         if (isfinite(s->row[k].sine.peak_A)) {
-            cli_say("  plain sine   T_ripple %.3g %%, peak %.4g A\n", s->row[k].sine.T_ripple_percent,
-                    s->row[k].sine.peak_A);
+            cli_say("  plain sine   T_ripple %s %%, peak %.4g A\n",
+                    HCI_PERCENT(s->row[k].sine.T_ripple_percent, 3), s->row[k].sine.peak_A);
             break;
         }
     for (int of_copper = 0; of_copper < 2; ++of_copper) {
@@ -53,10 +54,9 @@ static void show_envelope(const hci_grid *s)
 {
     const size_t every = (s->plan.count + MOST_ROWS - 1) / MOST_ROWS;
     const hci_component_set *set = s->request.options->set;
-    cli_say(
-        "\n  largest mean torque found, in N·m, with at most %.4g %% of ripple, with any, and of the plain "
-        "sine\n",
-        s->request.ripple_percent);
+    cli_say("\n  largest mean torque found, in N·m, with at most %s %% of ripple, with any, and of the plain "
+            "sine\n",
+            HCI_PERCENT(s->request.ripple_percent, 4));
     if (set)
         cli_say("  all but the plain sine with these %zu components; others may make more\n", set->count);
     else

@@ -15,6 +15,7 @@
 #include "cli/tune/tune_size.h"
 #include "cli/tune/tune_steps.h"
 #include "cli/tune/tune_suspect.h"
+#include "hci/host/base/number.h"
 #include "hci/host/report/write.h"
 #include "hci/math/harmonic.h"
 
@@ -112,7 +113,7 @@ static void take_slip(cli_tuning *t, const hci_check *c, const hci_check_finding
 {
     t->has_slip = true;
     t->slip_is_of_poles = is_of_poles(f->slip);
-    append(t, "Most likely %s (%.3g %%", f->words, 100.0 * probability);
+    append(t, "Most likely %s (%s %%", f->words, HCI_PERCENT(100.0 * probability, 3));
     append_point(t, c, f);
     for (size_t k = 0; k < f->alternatives; ++k)
         if (!is_excluded(t, f->alternative[k])) append(t, "; or else %s", f->alternative_words[k]);
@@ -140,9 +141,9 @@ static void say_finding(cli_tuning *t, const hci_check *c, const hci_check_findi
     char found[32];
     said_number(f->found, found);
     hci_tuning_say(&t->tuning, is_found ? HCI_TUNING_READ : HCI_TUNING_UNKNOWN,
-                   "%s: %s (%.3g %%); %s:%zu, %s: found %s, should be %s",
-                   is_found ? "slip" : "possible slip", f->words, 100.0 * probability, f->file, f->line,
-                   f->column, strlen(f->found) < sizeof found ? found : f->found, f->should_be);
+                   "%s: %s (%s %%); %s:%zu, %s: found %s, should be %s", is_found ? "slip" : "possible slip",
+                   f->words, HCI_PERCENT(100.0 * probability, 3), f->file, f->line, f->column,
+                   strlen(f->found) < sizeof found ? found : f->found, f->should_be);
     if (is_found && !t->has_slip) take_slip(t, c, f, probability);
 }
 
@@ -299,15 +300,17 @@ static void judge_ambiguous(cli_tuning *t, const hci_check *c)
         return;
     if (!has_finding(t, c)) return;
     t->has_slip = true;
-    append(t, "Something is read wrongly (%.3g %%)", 100.0 * (1.0 - c->probability_as_declared));
+    append(t, "Something is read wrongly (%s %%)",
+           HCI_PERCENT(100.0 * (1.0 - c->probability_as_declared), 3));
     for (size_t k = 0; k < c->findings; ++k) {
         const hci_check_finding *f = &c->finding[k];
         if (is_excluded(t, f->slip)) continue;
-        append(t, "%s%s (%.2g %%)", told_by ? ", or " : ": ", f->words, 100.0 * probability_of(t, c, f));
+        append(t, "%s%s (%s %%)", told_by ? ", or " : ": ", f->words,
+               HCI_PERCENT(100.0 * probability_of(t, c, f), 2));
         others -= probability_of(t, c, f);
         if (!told_by) told_by = not_given(t, f->told_by);
     }
-    if (others > LEAST_SAID) append(t, ", or another slip (%.2g %%)", 100.0 * others);
+    if (others > LEAST_SAID) append(t, ", or another slip (%s %%)", HCI_PERCENT(100.0 * others, 2));
     if (told_by) append(t, "; what would tell: %s", told_by);
     append(t, ", so nothing was solved");
 }
@@ -345,8 +348,8 @@ static void judge_torque(cli_tuning *t, const hci_check *c, const hci_check_evid
         e->declared / e->expected, unit_of_torque(e->declared / e->expected), cli_tune_constant_option(t));
     for (size_t k = 0; k < c->findings; ++k)
         if (!is_excluded(t, c->finding[k].slip))
-            append(t, ", or %s, by %.2g %%", c->finding[k].words,
-                   100.0 * probability_of(t, c, &c->finding[k]));
+            append(t, ", or %s, by %s %%", c->finding[k].words,
+                   HCI_PERCENT(100.0 * probability_of(t, c, &c->finding[k]), 2));
     append(t, "), so nothing was solved");
 }
 

@@ -10,6 +10,7 @@
 #include "cli/tune/tune_sheet.h"
 #include "cli/tune/tune_size.h"
 #include "cli/tune/tune_suspect.h"
+#include "hci/host/base/number.h"
 #include "hci/host/waveform/turning_load.h"
 
 /* Of the bound, or of the ripple where there is none, that order 1 may be and not be spoken of. */
@@ -124,21 +125,22 @@ static void append_of_common_gain(cli_tuning *t, double gain, double other)
     if (t->has_emf)
         cli_tune_caveat(
             t,
-            "%.2g %% are common to the gains of all three currents, and may be the torque sensor's "
+            "%s %% are common to the gains of all three currents, and may be the torque sensor's "
             "instead, which "
-            "reads %.2g %% too %s then, or magnets that are %s under load than beside the voltages%s: "
+            "reads %s %% too %s then, or magnets that are %s under load than beside the voltages%s: "
             "the back-EMF is from voltages of these logs, and nothing in them "
             "tells these apart%s%s",
-            100.0 * fabs(gain), 100.0 * fabs(other), is_less ? "little" : "much",
-            is_less ? "warmer" : "colder", effect, *told_by ? "; " : "", told_by);
+            HCI_PERCENT(100.0 * fabs(gain), 2), HCI_PERCENT(100.0 * fabs(other), 2),
+            is_less ? "little" : "much", is_less ? "warmer" : "colder", effect, *told_by ? "; " : "",
+            told_by);
     else
         cli_tune_caveat(
             t,
-            "%.2g %% are common to the gains of all three currents, and may be the back-EMF's instead, which "
-            "is %.2g %% %s then, or the torque sensor's%s: a torque sensor does not tell these apart; "
+            "%s %% are common to the gains of all three currents, and may be the back-EMF's instead, which "
+            "is %s %% %s then, or the torque sensor's%s: a torque sensor does not tell these apart; "
             "voltages of the open machine tell the back-EMF%s%s",
-            100.0 * fabs(gain), 100.0 * fabs(other), is_less ? "smaller" : "larger", effect,
-            *told_by ? ", and " : "", told_by);
+            HCI_PERCENT(100.0 * fabs(gain), 2), HCI_PERCENT(100.0 * fabs(other), 2),
+            is_less ? "smaller" : "larger", effect, *told_by ? ", and " : "", told_by);
 }
 
 static void append_of_gain(cli_tuning *t)

@@ -7,6 +7,7 @@
 #include "cli/tune/tune_facts.h"
 #include "cli/tune/tune_known.h"
 #include "cli/tune/tune_suspect.h"
+#include "hci/host/base/number.h"
 #include "hci/host/machine/init.h"
 
 /* Of the torque per ampere, that sheets are off by and torque sensors, too, and that is not spoken of. */
@@ -38,11 +39,11 @@ static void append_of_scale(cli_tuning *t)
     if (t->is_solved && !t->has_emf && fabs(share) > NEAR_SHEET && percent < 100.0)
         cli_tune_caveat(
             t,
-            "The torque per ampere is %.2g %% %s than %s makes: %s magnets%s, or a gain of the torque "
+            "The torque per ampere is %s %% %s than %s makes: %s magnets%s, or a gain of the torque "
             "sensor "
             "(or of those of the currents), which would make mean torque and ripple as much %s than said. "
             "Voltages of the open machine tell the magnets%s",
-            percent, is_more ? "more" : "less", cli_tune_constant_option(t),
+            HCI_PERCENT(percent, 2), is_more ? "more" : "less", cli_tune_constant_option(t),
             is_more ? "stronger or colder" : "weaker or warmer",
             is_told   ? ""
             : is_more ? ", a reluctance torque where an i_d flows"
@@ -63,10 +64,10 @@ static void append_of_drag(cli_tuning *t)
         cli_tune_caveat(
             t,
             "That no drag before the torque sensor grows with the load, as of a gear or a belt, is "
-            "taken on trust, since the motor drives in all of these loads: where it makes the %.2g %% "
+            "taken on trust, since the motor drives in all of these loads: where it makes the %s %% "
             "by which the torque per ampere is off the sheet, as much of the ripple that the table "
             "takes away stays, beside what is promised. The same loads turned back tell it",
-            percent);
+            HCI_PERCENT(percent, 2));
 }
 
 /* Whether all that is known of the torque is a current, of which a constant of the sheet makes N·m. */

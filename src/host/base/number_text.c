@@ -1,6 +1,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "hci/host/base/number.h"
@@ -66,4 +67,33 @@ void hci_number_text(double value, char text[32])
         if (reads_back(text, value)) return;
         if (precision == 16 && is_power_of_two(value) && next_16_digits_read_back(value, text)) return;
     }
+}
+
+/* ---- percentages ---- */
+
+#define LEAST_PERCENT 1e-6
+#define MOST_PERCENT  1e9
+
+/* "0.00050" as "0.0005", whatever the decimal mark. */
+static void drop_zeros(char *text)
+{
+    for (size_t n = strlen(text); n > 1 && text[n - 1] == '0'; --n)
+        text[n - 1] = '\0';
+}
+
+const char *hci_percent_text(double percent, int digits, char text[HCI_PERCENT_SIZE])
+{
+    snprintf(text, HCI_PERCENT_SIZE, "%.*g", digits, percent);
+    const char *exponent = strchr(text, 'e');
+    if (exponent == NULL) return text;
+    const int place = atoi(exponent + 1) - digits + 1; /* of the last digit */
+    if (fabs(percent) < LEAST_PERCENT)
+        snprintf(text, HCI_PERCENT_SIZE, "%s0.000001", percent < 0.0 ? "> -" : "< ");
+    else if (fabs(percent) > MOST_PERCENT)
+        snprintf(text, HCI_PERCENT_SIZE, "%s1000000000", percent < 0.0 ? "< -" : "> ");
+    else
+        snprintf(text, HCI_PERCENT_SIZE, "%.*f", place < 0 ? -place : 0,
+                 round(percent / pow(10.0, place)) * pow(10.0, place));
+    if (fabs(percent) < 1.0) drop_zeros(text);
+    return text;
 }

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "hci/host/base/number.h"
 #include "host/check/error_place.h"
 #include "host/check/own_findings.h"
 #include "host/check/relations/relations.h"
@@ -334,9 +335,9 @@ const char *hci_check_saliency_words(const hci_check *check, char *text, size_t 
         snprintf(text + used, size - (size_t)used, ", if nothing is read wrongly");
     else if (check->scale_left_open < SCALE_TOLD)
         snprintf(text + used, size - (size_t)used,
-                 "; beside it the torque per ampere is that of the tables within %.2g %%, and another scale "
+                 "; beside it the torque per ampere is that of the tables within %s %%, and another scale "
                  "is none that is needed",
-                 100.0 * check->scale_left_open);
+                 HCI_PERCENT(100.0 * check->scale_left_open, 2));
     else
         snprintf(
             text + used, size - (size_t)used,

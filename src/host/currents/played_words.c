@@ -1,6 +1,7 @@
 /* What a recording says of the currents that were solved, for people. */
 #include <math.h>
 
+#include "hci/host/base/number.h"
 #include "hci/host/currents/played.h"
 #include "hci/math/harmonic.h"
 #include "host/base/words.h"
@@ -27,8 +28,8 @@ static void say_currents(const hci_words *w, const hci_played *p)
         hci_words_say(w, "not to be compared with those that were solved, for want of an angle with a known "
                          "zero or of a current");
     else if (p->currents == HCI_PLAYED_AS_SOLVED)
-        hci_words_say(w, "those that were solved (%.4g times them, from which they differ by %.2g %% rms)",
-                      x->gain, 100.0 * x->left);
+        hci_words_say(w, "those that were solved (%.4g times them, from which they differ by %s %% rms)",
+                      x->gain, HCI_PERCENT(100.0 * x->left, 2));
     else if (p->currents == HCI_PLAYED_TURNED)
         say_turned(w, x);
     else if (p->currents == HCI_PLAYED_RESIZED)
@@ -36,8 +37,8 @@ static void say_currents(const hci_words *w, const hci_played *p)
     else
         hci_words_say(w,
                       "not those that were solved, as in a run without the table (they "
-                      "differ from it by %.2g %% rms)",
-                      100.0 * x->left_as_is);
+                      "differ from it by %s %% rms)",
+                      HCI_PERCENT(100.0 * x->left_as_is, 2));
 }
 
 static void say_ripple(const hci_words *w, const hci_solved_currents *solved, const hci_played *p)

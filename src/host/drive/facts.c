@@ -1,4 +1,5 @@
 /* What the current loop of a drive is: read off its linear model. */
+#include "hci/host/base/number.h"
 #include "hci/host/drive/drive_facts.h"
 
 #include <math.h>
@@ -144,9 +145,9 @@ void hci_drive_remark_response(const hci_drive_data *drive, const hci_machine_da
     if (f.reading == HCI_RESPONSE_AS_DECLARED) return;
     hci_response_reading_text(&f, text);
     hci_note_add(remark,
-                 "%s: its `response` is at most %.3g %% off what %s make of R and L, at %.4g Hz, and "
+                 "%s: its `response` is at most %s %% off what %s make of R and L, at %.4g Hz, and "
                  "`compensation` and `lead` are of the response: %s",
-                 hci_quote_path(drive->path, path), 100.0 * f.response_off,
+                 hci_quote_path(drive->path, path), HCI_PERCENT(100.0 * f.response_off, 3),
                  drive->gains_are_given ? "its gains" : "the default gains, since it has none,",
                  f.response_off_Hz, text);
 }

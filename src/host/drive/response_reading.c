@@ -1,5 +1,6 @@
 #include "host/drive/response_reading.h"
 
+#include "hci/host/base/number.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -173,6 +174,6 @@ void hci_response_reading_text(const hci_drive_facts *f, char text[HCI_RESPONSE_
     if (f->reading == HCI_RESPONSE_UNKNOWN || f->reading == HCI_RESPONSE_AS_DECLARED)
         snprintf(text, HCI_RESPONSE_TEXT_SIZE, "%s", WORDS[f->reading]);
     else
-        snprintf(text, HCI_RESPONSE_TEXT_SIZE, "%s%s; then %.3g %% are left", WORDS[f->reading], value,
-                 100.0 * f->reading_off);
+        snprintf(text, HCI_RESPONSE_TEXT_SIZE, "%s%s; then %s %% are left", WORDS[f->reading], value,
+                 HCI_PERCENT(100.0 * f->reading_off, 3));
 }

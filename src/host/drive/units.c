@@ -1,6 +1,7 @@
 /* Values of a drive and a winding that fit no motor, as a slip of a unit makes them. */
 #include <math.h>
 
+#include "hci/host/base/number.h"
 #include "hci/host/drive/drive.h"
 #include "host/base/quote.h"
 #include "host/machine/torque_constant.h"
@@ -36,8 +37,8 @@ static void look_at_pwm(const hci_drive_data *d, const char *file, hci_note *rem
                  file, d->pwm_frequency_Hz, periods, hci_drive_sample_s(d),
                  periods < 1.0 ? "it in kHz" : "one of the two in another unit");
     if (d->dead_time_s > 0.0)
-        hci_note_add(remark, "by it a dead time of %g s is %.3g %% of a period", d->dead_time_s,
-                     100.0 * d->dead_time_s * d->pwm_frequency_Hz);
+        hci_note_add(remark, "by it a dead time of %g s is %s %% of a period", d->dead_time_s,
+                     HCI_PERCENT(100.0 * d->dead_time_s * d->pwm_frequency_Hz, 3));
 }
 
 /* ---- inductance ---- */

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "hci/host/base/number.h"
 #include "hci/math/harmonic.h"
 #include "host/base/words.h"
 #include "host/machine/expected_ripple.h"
@@ -126,8 +127,8 @@ static void say_measured(const hci_words *w, const hci_expected_ripple *e)
 static void say_currents(const hci_words *w, const hci_expected_ripple *e)
 {
     if (e->outside_share > 0.0) {
-        hci_words_say(w, " At %.3g %% of the angle the currents lie outside of what was recorded",
-                      100.0 * e->outside_share);
+        hci_words_say(w, " At %s %% of the angle the currents lie outside of what was recorded",
+                      HCI_PERCENT(100.0 * e->outside_share, 3));
         say_measured(w, e);
         hci_words_say(
             w, ", by up to %.2g A: what the machine does there was not seen, and the bound is wider for it.",
@@ -196,9 +197,10 @@ static void say_origin(const hci_words *w, const hci_expected_ripple *e)
                       number(e->origin.left_means_Nm, false, Nm));
     if (isfinite(e->unbelievable_order))
         hci_words_say(w,
-                      " Its back-EMF of order %.4g is %.2g %% of the fundamental, which is not believable: a "
-                      "wave of constant size has %.2g %%.",
-                      e->unbelievable_order, 100.0 * e->unbelievable_share, 100.0 / e->unbelievable_order);
+                      " Its back-EMF of order %.4g is %s %% of the fundamental, which is not believable: a "
+                      "wave of constant size has %s %%.",
+                      e->unbelievable_order, HCI_PERCENT(100.0 * e->unbelievable_share, 2),
+                      HCI_PERCENT(100.0 / e->unbelievable_order, 2));
 }
 
 void hci_expected_ripple_words(const hci_expected_ripple *e, char *text, size_t size)

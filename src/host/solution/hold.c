@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "hci/host/base/number.h"
 #include "host/base/memory.h"
 #include "host/solution/hold_least.h"
 #include "host/solve/linear.h"
@@ -294,17 +295,17 @@ hci_status hci_held_tell(const hci_limited *of, const hci_held *held, const hci_
     if (fabs(ripple_Nm - held->now.ripple_Nm) > SAME * ripple_Nm) {
         hci_note_add(
             &of->solution->remark,
-            "between its samples the loop misses %.2g %% of the mean torque of these currents, peak to "
-            "peak; without limits high orders are reduced for that, to %.2g %% with %.3g times the "
+            "between its samples the loop misses %s %% of the mean torque of these currents, peak to "
+            "peak; without limits high orders are reduced for that, to %s %% with %.3g times the "
             "copper, which does not keep them",
-            percent * ripple_Nm, percent * held->now.ripple_Nm, copper);
+            HCI_PERCENT(percent * ripple_Nm, 2), HCI_PERCENT(percent * held->now.ripple_Nm, 2), copper);
         return HCI_OK;
     }
-    hci_note_add(
-        &of->solution->remark,
-        "between its samples the loop misses %.2g %% of the mean torque of these currents, peak to "
-        "peak; high orders are reduced for that (%.2g %% without), which takes %.3g times the copper",
-        percent * ripple_Nm, percent * held->first.ripple_Nm, copper);
+    hci_note_add(&of->solution->remark,
+                 "between its samples the loop misses %s %% of the mean torque of these currents, peak to "
+                 "peak; high orders are reduced for that (%s %% without), which takes %.3g times the copper",
+                 HCI_PERCENT(percent * ripple_Nm, 2), HCI_PERCENT(percent * held->first.ripple_Nm, 2),
+                 copper);
     name_reduced(&q, &held->as_they_come, a, &of->solution->remark);
     return HCI_OK;
 }

@@ -160,12 +160,49 @@ static void test_a_locale_with_a_decimal_comma_changes_nothing(void)
     TEST_ASSERT_TRUE(value == 0.1 + 0.2);
 }
 
+static void percent_is(const char *text, double percent, int digits)
+{
+    TEST_ASSERT_EQUAL_STRING(text, HCI_PERCENT(percent, digits));
+}
+
+static void test_percentages_have_no_exponent(void)
+{
+    percent_is("120", 123.4, 2);
+    percent_is("100", 99.7, 2);
+    percent_is("12", 12.34, 2);
+    percent_is("99.7", 99.7, 3);
+    percent_is("-1200", -1234.0, 2);
+    percent_is("12300000", 12345678.0, 3);
+    percent_is("0.000012", 1.23e-5, 2);
+    percent_is("0.00005", 5e-5, 2);
+    percent_is("< 0.000001", 1e-9, 2);
+    percent_is("> -0.000001", -1e-9, 3);
+    percent_is("> 1000000000", 1e200, 2);
+    percent_is("0", 0.0, 2);
+}
+
+/* Whatever it is: two numbers with the same first digits, and never an `e`. */
+static void test_percentages_of_all_sizes(void)
+{
+    uint64_t seed = 3;
+    for (int trial = 0; trial < 20000; ++trial) {
+        const double percent = pow(10.0, ref_uniform(&seed, -5.9, 8.9));
+        char text[HCI_PERCENT_SIZE];
+        double back;
+        TEST_ASSERT_NULL(strchr(hci_percent_text(percent, 3, text), 'e'));
+        TEST_ASSERT_TRUE(hci_number_parse(text, &back));
+        TEST_ASSERT_DOUBLE_WITHIN(0.00501 * percent, percent, back);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_parsing_agrees_with_strtod_to_the_last_bit);
     RUN_TEST(test_numbers_near_the_middle_between_two_doubles_are_rounded_once);
     RUN_TEST(test_texts_that_are_no_numbers_are_refused);
+    RUN_TEST(test_percentages_have_no_exponent);
+    RUN_TEST(test_percentages_of_all_sizes);
     RUN_TEST(test_numbers_are_written_as_short_as_they_can_be);
     RUN_TEST(test_what_is_written_reads_back_to_the_same_bits);
     RUN_TEST(test_a_locale_with_a_decimal_comma_changes_nothing);

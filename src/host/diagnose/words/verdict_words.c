@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "hci/host/base/number.h"
 #include "hci/host/diagnose/diagnose.h"
 #include "host/base/words.h"
 
@@ -471,21 +472,20 @@ static void say_open_voltage(const hci_words *w, const hci_diagnosis *d)
                       "without a current are those of the declared back-EMF: inertia, or the scale of "
                       "torque or current, may be wrong.");
     else if (fabs(d->beyond_voltages) > HCI_BEYOND_VOLTAGES && d->verdict == HCI_DIAGNOSIS_EXPLAINED)
-        hci_words_say(w,
-                      " Its torque per ampere is %.2g %% %s what the voltages that were recorded without a "
-                      "current show: %s, magnets that are %s under load, and a gain of the torque or current "
-                      "sensors look the same.",
-                      100.0 * fabs(d->beyond_voltages), d->beyond_voltages > 0.0 ? "above" : "below",
-                      d->beyond_voltages > 0.0 ? "a reluctance torque where an i_d flows"
-                                               : "iron that saturates",
-                      d->beyond_voltages > 0.0 ? "colder" : "warmer");
+        hci_words_say(
+            w,
+            " Its torque per ampere is %s %% %s what the voltages that were recorded without a "
+            "current show: %s, magnets that are %s under load, and a gain of the torque or current "
+            "sensors look the same.",
+            HCI_PERCENT(100.0 * fabs(d->beyond_voltages), 2), d->beyond_voltages > 0.0 ? "above" : "below",
+            d->beyond_voltages > 0.0 ? "a reluctance torque where an i_d flows" : "iron that saturates",
+            d->beyond_voltages > 0.0 ? "colder" : "warmer");
     if (!(d->open_voltage_off > HCI_OPEN_VOLTAGE_OFF)) return;
-    hci_words_say(
-        w,
-        " The voltages that were recorded without a current differ from speed x back_emf.csv by %.2g "
-        "%%; no effect is looked for in voltages: take the back-EMF from `harmonics`, or see with "
-        "`check` what is meant otherwise.",
-        100.0 * d->open_voltage_off);
+    hci_words_say(w,
+                  " The voltages that were recorded without a current differ from speed x back_emf.csv by %s "
+                  "%%; no effect is looked for in voltages: take the back-EMF from `harmonics`, or see with "
+                  "`check` what is meant otherwise.",
+                  HCI_PERCENT(100.0 * d->open_voltage_off, 2));
 }
 
 static void say_search(const hci_words *w, const hci_diagnosis *d)
@@ -579,7 +579,7 @@ static void say_standing(const hci_words *w, const hci_diagnosis *d)
                   "any currents, is ",
                   any(d, HCI_FINDING_ADDED) ? " " : "", d->standing_taken, d->standing_instead);
     if (fabs(d->standing_share) < BELIEVABLE_SHARE)
-        hci_words_say(w, "%.2g %% ", 100.0 * fabs(d->standing_share));
+        hci_words_say(w, "%s %% ", HCI_PERCENT(100.0 * fabs(d->standing_share), 2));
     hci_words_say(w, "%s. A turn of each load the other way, or idle turns both ways, would tell.",
                   d->standing_share > 0.0 ? "larger" : "smaller");
 }

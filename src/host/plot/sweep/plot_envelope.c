@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "hci/host/base/number.h"
 #include "hci/host/base/unit.h"
 #include "host/plot/sweep/plot_sweep.h"
 
@@ -149,7 +150,7 @@ void hci_plot_envelope_torque(hci_output *out, const hci_svg_box *area, const vo
     panel p = {.sweep = s, .y = hci_svg_axis_over(r, area->bottom, area->top, 8.0), .value = torque};
     const hci_svg_box b = hci_svg_box_beside(*area, &p.y);
     p.x = speed_axis(s, &b);
-    snprintf(allowed, sizeof allowed, "at most %.4g %% of ripple", s->request.ripple_percent);
+    snprintf(allowed, sizeof allowed, "at most %s %% of ripple", HCI_PERCENT(s->request.ripple_percent, 4));
     const hci_svg_entry legend[] = {{HCI_SVG_LINE, "a", allowed},
                                     {HCI_SVG_LINE, "c", "any ripple"},
                                     {HCI_SVG_LINE, "before", "plain sine"},

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "hci/host/base/number.h"
 #include "host/draw/html.h"
 #include "host/plot/fleet/plot_fleet.h"
 
@@ -22,8 +23,8 @@ static void say_results(hci_output *out, const hci_line *l)
         out, NULL,
         "A motor stands out where one of its parameters is more than %.3g robust standard deviations from "
         "the median of all: "
-        "of sound motors whose parameters are normally distributed, %.3g %% would, some %.2g of these.",
-        l->limit, 100.0 * l->false_alarms, l->false_alarms * (double)(l->motors - without));
+        "of sound motors whose parameters are normally distributed, %s %% would, some %.2g of these.",
+        l->limit, HCI_PERCENT(100.0 * l->false_alarms, 3), l->false_alarms * (double)(l->motors - without));
     hci_html_evidence(out);
 }
 

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "hci/host/base/number.h"
 #include "hci/host/machine/expected_ripple.h"
 #include "host/report/page/solution_sections.h"
 
@@ -102,8 +103,8 @@ static void cell_of_bound(char text[CELL_SIZE], const hci_solution_page *p)
     hci_page_swing(in_Nm, (hci_range){0.0, bound_Nm}, s->tolerance_Nm);
     snprintf(text, CELL_SIZE, "at most %s", in_Nm);
     if (fabs(mean_Nm(s)) > NO_MEAN * bound_Nm && bound_Nm >= s->tolerance_Nm)
-        snprintf(text + strlen(text), CELL_SIZE - strlen(text), "|%.2g %% of the mean (95 %%)",
-                 hci_ripple_bound_as_said(s->expected.T_ripple_percent));
+        snprintf(text + strlen(text), CELL_SIZE - strlen(text), "|%s %% of the mean (95 %%)",
+                 HCI_PERCENT(hci_ripple_bound_as_said(s->expected.T_ripple_percent), 2));
     else
         snprintf(text + strlen(text), CELL_SIZE - strlen(text), "|95 %%");
     if (s->expected.if_in_time)

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "hci/host/base/number.h"
 #include "host/draw/html.h"
 #include "host/plot/plot.h"
 #include "host/report/page/page.h"
@@ -93,8 +94,8 @@ static void tables_of_ripple(hci_output *out, const hci_speeds *s)
     table_of_ripple(out, s, "T_ripple in %", false);
     if (!(s->model_error > 0.0)) return;
     snprintf(caption, sizeof caption,
-             "The same in %%, the worst of machines whose R, L and flux are %.3g %% off",
-             100.0 * s->model_error);
+             "The same in %%, the worst of machines whose R, L and flux are %s %% off",
+             HCI_PERCENT(100.0 * s->model_error, 3));
     table_of_ripple(out, s, caption, true);
 }
 

@@ -1,5 +1,6 @@
 /* The page of a sweep: what it found in a sentence, its picture, its table. */
 #include "host/report/sweep/page_sweep.h"
+#include "hci/host/base/number.h"
 #include "hci/host/base/unit.h"
 
 #include <math.h>
@@ -22,7 +23,7 @@ static void say_least(hci_output *out, const hci_grid *s, double percent, const 
     if (row->best.T_ripple_percent < HCI_GRID_SMOOTH)
         snprintf(ripple, sizeof ripple, "no ripple");
     else
-        snprintf(ripple, sizeof ripple, "%.3g %% of ripple", row->best.T_ripple_percent);
+        snprintf(ripple, sizeof ripple, "%s %% of ripple", HCI_PERCENT(row->best.T_ripple_percent, 3));
     hci_html_say(out, NULL,
                  "%s: a limit of the phase current of %.4g A, with %s and %.4g times the copper loss of the "
                  "plain sine.",
@@ -68,10 +69,11 @@ static void say_envelope(hci_output *out, const hci_grid *s)
     if (isfinite(row->best.mean_Nm))
         hci_html_say(
             out, NULL,
-            "At %.4g rpm: %.4g N·m with at most %.4g %% of ripple, %.4g N·m with %.3g %%, and %.4g N·m with "
-            "%.3g %% by the plain sine.",
-            hci_rpm(row->point.speed_rad_per_s), row->best.mean_Nm, s->request.ripple_percent,
-            row->most.mean_Nm, row->most.T_ripple_percent, row->sine.mean_Nm, row->sine.T_ripple_percent);
+            "At %.4g rpm: %.4g N·m with at most %s %% of ripple, %.4g N·m with %s %%, and %.4g N·m with "
+            "%s %% by the plain sine.",
+            hci_rpm(row->point.speed_rad_per_s), row->best.mean_Nm, HCI_PERCENT(s->request.ripple_percent, 4),
+            row->most.mean_Nm, HCI_PERCENT(row->most.T_ripple_percent, 3), row->sine.mean_Nm,
+            HCI_PERCENT(row->sine.T_ripple_percent, 3));
 }
 
 static void envelope_row(hci_output *out, const hci_grid_row *row)
@@ -285,8 +287,8 @@ static void heading_of_trade_off(const hci_grid *s, char text[256])
         snprintf(text, 256, "%.4g N·m without ripple takes %.4g A at the peak", torque_Nm,
                  smooth->best.peak_A);
     else if (least)
-        snprintf(text, 256, "%.4g N·m takes %.4g A at the peak, with %.3g %% of ripple", torque_Nm,
-                 least->best.peak_A, least->best.T_ripple_percent);
+        snprintf(text, 256, "%.4g N·m takes %.4g A at the peak, with %s %% of ripple", torque_Nm,
+                 least->best.peak_A, HCI_PERCENT(least->best.T_ripple_percent, 3));
     else
         snprintf(text, 256, "No limit that was tried lets %.4g N·m be made", torque_Nm);
 }
@@ -295,11 +297,11 @@ static void heading_of_envelope(const hci_grid *s, char text[256])
 {
     const hci_grid_row *row = &s->row[0];
     if (isfinite(row->best.mean_Nm))
-        snprintf(text, 256, "%.4g N·m at %.4g rpm with at most %.4g %% of ripple", row->best.mean_Nm,
-                 hci_rpm(row->point.speed_rad_per_s), s->request.ripple_percent);
+        snprintf(text, 256, "%.4g N·m at %.4g rpm with at most %s %% of ripple", row->best.mean_Nm,
+                 hci_rpm(row->point.speed_rad_per_s), HCI_PERCENT(s->request.ripple_percent, 4));
     else
-        snprintf(text, 256, "No torque at %.4g rpm with at most %.4g %% of ripple",
-                 hci_rpm(row->point.speed_rad_per_s), s->request.ripple_percent);
+        snprintf(text, 256, "No torque at %.4g rpm with at most %s %% of ripple",
+                 hci_rpm(row->point.speed_rad_per_s), HCI_PERCENT(s->request.ripple_percent, 4));
 }
 
 static void heading_of(const hci_grid *s, char text[256])
