@@ -212,8 +212,11 @@ static void show_expected(const hci_solution *s)
     cli_say("  sensors\n");
     cli_say_paragraph(4,
                       "This holds for the true angle and the true current. A drive with the sensors of the "
-                      "recordings has to correct what they read:");
-    cli_say_paragraph(4, s->corrections);
+                      "recordings has to correct what they read, in the order of these lines:");
+    for (const char *line = s->corrections; *line != '\0'; line += strcspn(line, "\n") + 1) {
+        cli_say("      %.*s\n", (int)strcspn(line, "\n"), line);
+        if (strchr(line, '\n') == NULL) break;
+    }
 }
 
 /* Copper is a loss where the resistance is known. */

@@ -17,7 +17,10 @@ static void show_part(const hci_tuning *t, hci_tuning_part part)
         char line[4096];
         const size_t length = strcspn(text, "\n");
         snprintf(line, sizeof line, "%.*s", (int)length, text);
-        cli_say_paragraph(2 + (int)strspn(line, " "), line + strspn(line, " "));
+        if (strncmp(line, "  hci-solve ", 12) == 0)
+            cli_say("  %s\n", line); /* to be copied as one line */
+        else
+            cli_say_paragraph(2 + (int)strspn(line, " "), line + strspn(line, " "));
         text += length + (text[length] == '\n');
     }
 }
@@ -78,7 +81,7 @@ static void show_heading(const hci_tuning *t)
     cli_say("%s%s" CLI_PLAIN ": %s\n", t->good ? CLI_GOOD : CLI_WARN, t->verdict, t->heading);
     while (*text) {
         const size_t length = strcspn(text, "\n");
-        cli_say("  - %.*s\n", (int)length, text);
+        cli_say("  %s %.*s\n", *text == ' ' ? "  " : "-", (int)length, text);
         text += length + (text[length] == '\n');
     }
 }

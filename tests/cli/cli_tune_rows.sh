@@ -71,7 +71,7 @@ awk 'function noise() { return rand() + rand() + rand() + rand() - 2 }
         printf "%.4f,%.5f,%.4f,%.4f,%.4f,%.5f,60\n", k / 5000, x, a + 0.04, b - 0.025, c + 0.01,
             -0.1 + 0.3 * sin(18 * x + 1) + 0.04 * noise() } }' >zeros.csv
 run 0 tune zeros.csv $plain --rated-current 40 --torque 20 -o zeros
-says '^tuned: ' 'In 1 of 1 runs what was read as current, up to 0.04 A, stands still' 'subtract 0.0[0-9]* A from i_a, add 0.0[0-9]* A to i_b' \
+says '^tuned: ' 'In 1 of 1 runs what was read as current, up to 0.04 A, stands still' '^       i_a = .i_a_read - 0.0[0-9]* A.$' '^       i_b = .i_b_read . 0.0[0-9]* A.$' \
     'The offsets of the currents are those of the logs: .*these make 0.0[0-9]* N·m once an electrical turn'
 check "noise that a rating is held against" [ "$(grep -c 'largest recorded one' "$work/stdout")" -eq 0 ]
 

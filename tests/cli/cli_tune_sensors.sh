@@ -109,7 +109,7 @@ gained gained2.csv 2 1 3
 gained gained4.csv 4 1 4
 gains='--pole-pairs 5 --torque-constant 0.3 --slots 12 --rated-current 5'
 run 0 tune gained0.csv gainedb.csv gained4.csv $gains -o gained
-says 'have to be corrected before: divide i_a by 1\.009' 'The torque per ampere is 8\.[0-9]* % less than --torque-constant makes: .* a gain of the torque sensor \(or of those of the currents\), which would make mean torque and ripple as much larger'
+says 'have to be corrected before, in the order of these lines:$' '^       i_a = i_a_read \* 0\.99' 'The torque per ampere is 8\.[0-9]* % less than --torque-constant makes: .* a gain of the torque sensor \(or of those of the currents\), which would make mean torque and ripple as much larger'
 run 0 tune gained0.csv gainedb.csv gained2.csv gained4.csv $gains -o gained2
-says 'have to be corrected before: divide i_a by 1\.009'
+says 'have to be corrected before, in the order of these lines:$' '^       i_a = i_a_read \* 0\.99'
 finish

@@ -64,7 +64,7 @@ static void append_of_logs(cli_tuning *t)
 static bool are_gains(const hci_effect *e)
 {
     for (size_t j = 0; j < e->count && e->type->correction; ++j)
-        if (e->type->correction[e->term[j].parameter].plus != 1.0) return false;
+        if (e->type->correction[e->term[j].parameter] != HCI_CORRECT_CURRENT_GAIN) return false;
     return (e->count == 2 || e->count == 3) && e->type->correction;
 }
 
@@ -147,7 +147,7 @@ static void append_of_gain(cli_tuning *t)
 {
     const double gain = common_gain(t);
     if (fabs(gain) > 0.0) append_of_common_gain(t, gain, -gain / (1.0 + gain));
-    if (strstr(t->solution.corrections, " A from i_") || strstr(t->solution.corrections, " A to i_"))
+    if (strstr(t->solution.corrections, " A)"))
         cli_tune_caveat(
             t,
             "The offsets of the currents are those of the logs: a drive that nulls its sensors at each start "
@@ -162,7 +162,8 @@ static double early_s(const cli_tuning *t)
     for (size_t k = 0; k < list->count; ++k) {
         const hci_effect *e = &list->effect[k];
         for (size_t j = 0; e->type->late && j < e->count; ++j)
-            if (e->type->correction[e->term[j].parameter].late_alone && e->term[j].value < 0.0)
+            if (e->type->correction[e->term[j].parameter] == HCI_CORRECT_ANGLE_DELAY &&
+                e->term[j].value < 0.0)
                 return -e->term[j].value;
     }
     return 0.0;
@@ -356,6 +357,16 @@ static const char *open_correction(const cli_tuning *t)
     return NULL;
 }
 
+/* Set in below the sentence before. */
+static void say_corrections(cli_tuning *t)
+{
+    for (const char *line = t->solution.corrections; *line != '\0';) {
+        const size_t length = strcspn(line, "\n");
+        hci_tuning_say(&t->tuning, HCI_TUNING_CAVEATS, "  %.*s", (int)length, line);
+        line += length + (line[length] == '\n');
+    }
+}
+
 static void append_of_corrections(cli_tuning *t)
 {
     const char *open = open_correction(t);
@@ -363,13 +374,16 @@ static void append_of_corrections(cli_tuning *t)
         cli_tune_caveat(
             t,
             "The table hangs on what was found of the sensors, of which %s cannot be told from other "
-            "effects. Where the sensors of the drive are those of the logs and read so, correct before: %s; "
-            "where they read right, another torque is made",
-            open, t->solution.corrections);
+            "effects. Where the sensors of the drive are those of the logs and read so, correct before, in "
+            "the "
+            "order of these lines (where they read right, another torque is made):",
+            open);
     else
         cli_tune_caveat(
-            t, "The sensors of the drive, where they are those of the logs, have to be corrected before: %s",
-            t->solution.corrections);
+            t,
+            "The sensors of the drive, where they are those of the logs, have to be corrected before, in the "
+            "order of these lines:");
+    say_corrections(t);
     append_of_gain(t);
 }
 

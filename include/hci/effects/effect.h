@@ -115,14 +115,20 @@ typedef struct {
     size_t count;             /* entries of effect */
 } hci_effects;
 
-/* What a drive does to its readings in answer to a value, in words: before, plus + value, after; where
- * `behind` is given, the order of the term and it follow. before NULL: nothing. */
-typedef struct {
-    const char *before; /* words before the value; NULL: nothing is said */
-    double plus;        /* added to the value */
-    const char *after;  /* words after it */
-    const char *behind; /* words behind the order, which follows where they are given; NULL: none */
-    bool late_alone;    /* a value below 0 is nothing that a sensor does: nothing is said of it */
+/* What a drive does to its readings in answer to a value, each the inverse of what its sensor does. */
+typedef enum {
+    HCI_CORRECT_NOTHING,
+    HCI_CORRECT_CURRENT_ZERO,  /* less the value, of the phase that the parameter counts */
+    HCI_CORRECT_CURRENT_GAIN,  /* over 1 + value */
+    HCI_CORRECT_ANGLE_ZERO,    /* electrical, less the value */
+    HCI_CORRECT_ANGLE_SINE,    /* electrical, less value × sin(order · θ) */
+    HCI_CORRECT_ANGLE_COSINE,  /* and × cos(order · θ) */
+    HCI_CORRECT_TURN_SINE,     /* mechanical, less value × sin(order · θ_m) */
+    HCI_CORRECT_TURN_COSINE,   /* and × cos(order · θ_m) */
+    HCI_CORRECT_ANGLE_LOAD,    /* electrical, less value × i_q */
+    HCI_CORRECT_ANGLE_DELAY,   /* more speed × value; a value below 0 is nothing that a sensor does */
+    HCI_CORRECT_CURRENT_DELAY, /* the angle of the value before for the currents */
+    HCI_CORRECT_CURRENT_FILTER /* the same of a low pass */
 } hci_effect_correction;
 
 /* ---- types ---- */

@@ -149,10 +149,8 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
     hci_effect_propose(to, ANGLE, 1, 0.0, 2.0, EXPECTED_S);
 }
 
-static const hci_effect_correction CORRECTION[] = {
-    {"take for the currents, for their delay, the angle of ", 0.0, " s before", NULL, false},
-    {"add to the angle, for its delay, the speed times ", 0.0, " s", NULL, true},
-    {NULL, 0.0, NULL, NULL, false}};
+static const hci_effect_correction CORRECTION[] = {HCI_CORRECT_CURRENT_DELAY, HCI_CORRECT_ANGLE_DELAY,
+                                                   HCI_CORRECT_NOTHING};
 
 const hci_effect_type hci_effect_channel_delay = {
     .name = "channel_delay",

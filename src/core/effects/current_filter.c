@@ -114,8 +114,7 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
     if (survey->timed && survey->speeds > 1) hci_effect_propose(to, TIME_CONSTANT, 1, 0.0, 2.0, EXPECTED_S);
 }
 
-static const hci_effect_correction CORRECTION[] = {
-    {"take for the currents (of a low pass) the angle of ", 0.0, " s before", NULL, false}};
+static const hci_effect_correction CORRECTION[] = {HCI_CORRECT_CURRENT_FILTER};
 
 const hci_effect_type hci_effect_current_filter = {
     .name = "current_filter",

@@ -86,9 +86,8 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
     hci_effect_propose_phases(to, EXPECTED);
 }
 
-static const hci_effect_correction CORRECTION[] = {{"divide i_a by ", 1.0, "", NULL, false},
-                                                   {"divide i_b by ", 1.0, "", NULL, false},
-                                                   {"divide i_c by ", 1.0, "", NULL, false}};
+static const hci_effect_correction CORRECTION[] = {HCI_CORRECT_CURRENT_GAIN, HCI_CORRECT_CURRENT_GAIN,
+                                                   HCI_CORRECT_CURRENT_GAIN};
 
 const hci_effect_type hci_effect_current_gain = {
     .name = "current_gain",

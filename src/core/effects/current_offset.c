@@ -75,9 +75,8 @@ static void propose_alike(const hci_machine *machine, double slots, const hci_ef
     hci_effect_propose(to, 0, 2, 0.0, 1.0, 0.0);
 }
 
-static const hci_effect_correction CORRECTION[] = {{"subtract ", 0.0, " A from i_a", NULL, false},
-                                                   {"subtract ", 0.0, " A from i_b", NULL, false},
-                                                   {"subtract ", 0.0, " A from i_c", NULL, false}};
+static const hci_effect_correction CORRECTION[] = {HCI_CORRECT_CURRENT_ZERO, HCI_CORRECT_CURRENT_ZERO,
+                                                   HCI_CORRECT_CURRENT_ZERO};
 
 const hci_effect_type hci_effect_current_offset = {
     .name = "current_offset",

@@ -65,9 +65,7 @@ static void propose_alike(const hci_machine *machine, double slots, const hci_ef
     hci_effect_propose(to, SINE, 2, 1.0, 1.0, EXPECTED_RAD);
 }
 
-static const hci_effect_correction CORRECTION[] = {
-    {"subtract from the mechanical angle ", 0.0, " rad sin(", " theta_m)", false},
-    {"subtract from the mechanical angle ", 0.0, " rad cos(", " theta_m)", false}};
+static const hci_effect_correction CORRECTION[] = {HCI_CORRECT_TURN_SINE, HCI_CORRECT_TURN_COSINE};
 
 const hci_effect_type hci_effect_position_eccentricity = {
     .name = "position_eccentricity",

@@ -78,9 +78,7 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
             hci_effect_propose(to, SINE, 2, survey->angle_order[k], survey->orders, EXPECTED_RAD);
 }
 
-static const hci_effect_correction CORRECTION[] = {
-    {"subtract from the electrical angle ", 0.0, " rad sin(", " theta)", false},
-    {"subtract from the electrical angle ", 0.0, " rad cos(", " theta)", false}};
+static const hci_effect_correction CORRECTION[] = {HCI_CORRECT_ANGLE_SINE, HCI_CORRECT_ANGLE_COSINE};
 
 const hci_effect_type hci_effect_position_harmonics = {
     .name = "position_harmonics",

@@ -93,8 +93,7 @@ static void propose(const hci_effect_survey *survey, const hci_effect_proposals 
         hci_effect_propose(to, PER_AMPERE, 1, 0.0, 2.0, EXPECTED_RAD / survey->current_A);
 }
 
-static const hci_effect_correction CORRECTION[] = {
-    {"subtract from the electrical angle ", 0.0, " rad for each ampere of i_q", NULL, false}};
+static const hci_effect_correction CORRECTION[] = {HCI_CORRECT_ANGLE_LOAD};
 
 const hci_effect_type hci_effect_position_load = {
     .name = "position_load",

@@ -48,8 +48,7 @@ static void propose_alike(const hci_machine *machine, double slots, const hci_ef
     hci_effect_propose(to, ANGLE, 1, 0.0, 1.0, EXPECTED_RAD);
 }
 
-static const hci_effect_correction CORRECTION[] = {
-    {"subtract ", 0.0, " rad from the electrical angle", NULL, false}};
+static const hci_effect_correction CORRECTION[] = {HCI_CORRECT_ANGLE_ZERO};
 
 const hci_effect_type hci_effect_position_offset = {
     .name = "position_offset",

@@ -174,13 +174,24 @@ static void put_heading_and_rest(hci_output *out, const char *text)
     hci_output_text(out, "</ul>\n");
 }
 
+/* One that is set in belongs to the item above. */
+static void put_line_of_item(hci_output *out, const char *text, size_t length)
+{
+    hci_output_text(out, "<li style=\"list-style:none\">");
+    put_clause(out, text, length);
+    hci_output_text(out, "</li>\n");
+}
+
 void hci_html_also(hci_output *out, const char *text)
 {
     if (!*text) return;
     hci_output_text(out, "<ul class=\"also\">\n");
     while (*text) {
-        const size_t length = strcspn(text, "\n");
-        put_item(out, text, length);
+        const size_t length = strcspn(text, "\n"), blanks = strspn(text, " ");
+        if (blanks > 0)
+            put_line_of_item(out, text + blanks, length - blanks);
+        else
+            put_item(out, text, length);
         text += length + (text[length] == '\n');
     }
     hci_output_text(out, "</ul>\n");

@@ -36,6 +36,7 @@ hci_status hci_emit_facts_read(const char *folder, const hci_machine_data *machi
         machine->rated_speed_rad_per_s > 0.0 ? machine->rated_speed_rad_per_s : 0.0; /* NAN: not given */
     take_magnets(&effects.list, facts);
     hci_corrections_words(&effects.list, facts->corrections, sizeof facts->corrections);
+    hci_corrections_take(&effects.list, &facts->correction_values);
     hci_effects_release(&effects);
     return HCI_OK;
 }

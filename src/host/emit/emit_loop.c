@@ -128,6 +128,7 @@ static void write_header(const emission *e, hci_output *out)
                     "#if HCI_LOOP_VERSION != %d\n#error \"%s needs version %d of hci/loop.h\"\n#endif\n\n",
                     HCI_LOOP_VERSION, name, HCI_LOOP_VERSION);
     hci_emission_macros(name, e->request->facts.pole_pairs, e->set.loop.period_turns, out);
+    hci_emission_correction_macros(name, &e->request->facts.correction_values, out);
     hci_output_text(out,
                     "/* Floats of RAM for any remedy; %" PRIu32 " do without HCI_LOOP_FEEDFORWARD. */\n"
                     "#define %s_FLOATS %" PRIu32 "u\n\n",

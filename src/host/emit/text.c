@@ -131,14 +131,14 @@ static void write_corrections(const hci_emit_facts *f, hci_output *out)
 {
     const char *text = f->corrections;
     if (!*text) return;
-    hci_output_text(out,
-                    " * Sensors: the currents are for the true angle and the true current. A drive with the\n"
-                    " *         sensors of the recordings has to correct what they read:\n");
+    hci_output_text(
+        out, " * Sensors: the currents are for the true angle and the true current. A drive with the\n"
+             " *         sensors of the recordings has to correct what they read, in the order of these\n"
+             " *         lines; the numbers are macros below:\n");
     while (*text) {
-        const char *end = strstr(text, ", ");
-        const int length = end ? (int)(end - text) : (int)strlen(text);
-        hci_output_text(out, " *         %.*s%s\n", length, text, end ? "," : ".");
-        text += end ? length + 2 : length;
+        const size_t length = strcspn(text, "\n");
+        hci_output_text(out, " *           %.*s\n", (int)length, text);
+        text += length + (text[length] == '\n');
     }
 }
 
@@ -199,6 +199,66 @@ void hci_emission_macros(const char *name, size_t pole_pairs, size_t turns, hci_
     if (pole_pairs % turns == 0)
         hci_output_text(out, "#define %s_PERIODS %zuu /* for hci_angle_from_mechanical */\n", name,
                         pole_pairs / turns);
+    hci_output_text(out, "\n");
+}
+
+/* "1", or "0_5": an order in the name of a macro. */
+static const char *order_name(double order, char text[32])
+{
+    hci_number_text(order, text);
+    for (char *at = text; *at != '\0'; ++at)
+        if (*at == '.' || *at == '-') *at = '_';
+    return text;
+}
+
+static void write_macro(const char *name, const char *what, double value, const char *comment,
+                        hci_output *out)
+{
+    hci_output_text(out, "#define %s_%s ", name, what);
+    hci_emission_float(out, (float)value, "");
+    hci_output_text(out, "%s\n", comment);
+}
+
+static void write_current_macros(const char *name, const hci_corrections *c, hci_output *out)
+{
+    char what[32];
+    for (int s = 0; s < 3; ++s) {
+        snprintf(what, sizeof what, "I%c_ZERO_A", "ABC"[s]);
+        write_macro(name, what, c->zero_A[s], "", out);
+        snprintf(what, sizeof what, "I%c_GAIN", "ABC"[s]);
+        write_macro(name, what, c->gain[s], "", out);
+        hci_output_text(out, "#define %s_TRUE_I%c(read_A) (((read_A) - %s_I%c_ZERO_A) * %s_I%c_GAIN)\n", name,
+                        "ABC"[s], name, "ABC"[s], name, "ABC"[s]);
+    }
+}
+
+static void write_angle_macros(const char *name, const hci_corrections *c, hci_output *out)
+{
+    char what[64], order[32];
+    if (c->angle_zero_rad != 0.0)
+        write_macro(name, "THETA_ZERO_RAD", c->angle_zero_rad, " /* electrical; theta = theta_read - this */",
+                    out);
+    for (size_t k = 0; k < c->waves; ++k) {
+        const hci_angle_wave *w = &c->wave[k];
+        snprintf(what, sizeof what, "THETA%s_%s%s_RAD", w->is_mechanical ? "_M" : "",
+                 w->is_cosine ? "COS" : "SIN", order_name(w->order, order));
+        write_macro(name, what, w->amplitude_rad,
+                    w->is_mechanical ? " /* mechanical; theta_m = theta_m - this * the sine or cosine */"
+                                     : " /* electrical; theta = theta - this * the sine or cosine */",
+                    out);
+    }
+    if (c->load_rad_per_A != 0.0)
+        write_macro(name, "THETA_RAD_PER_A", c->load_rad_per_A,
+                    " /* electrical; theta = theta - this * i_q */", out);
+}
+
+void hci_emission_correction_macros(const char *name, const hci_corrections *c, hci_output *out)
+{
+    if (!c->has_currents && !c->has_angle) return;
+    hci_output_text(out,
+                    "/* Readings to true values: the lines of `Sensors` above, from top to bottom. */\n");
+    if (c->has_currents) write_current_macros(name, c, out);
+    if (c->has_angle) write_angle_macros(name, c, out);
     hci_output_text(out, "\n");
 }
 

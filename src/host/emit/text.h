@@ -48,6 +48,9 @@ void hci_emission_facts(const hci_emission *e, hci_output *output);
 void hci_emission_ripple(const hci_emission *e, hci_output *output);
 
 /* NAME_POLE_PAIRS and NAME_PERIODS, of a table over so many electrical turns, where they are known. */
+/* Zeros, gains and angles that a firmware corrects by; nothing where there are none. */
+void hci_emission_correction_macros(const char *name, const hci_corrections *corrections, hci_output *output);
+
 void hci_emission_macros(const char *name, size_t pole_pairs, size_t turns, hci_output *output);
 
 /* Where the numbers come from. Ends the comment. */

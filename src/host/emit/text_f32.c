@@ -46,6 +46,7 @@ void hci_emission_write_header(const hci_emission *e, hci_output *out)
     hci_emission_input(e, out);
     hci_emission_guard(e, out, "hci/table.h", "HCI_TABLE_VERSION", HCI_TABLE_VERSION);
     hci_emission_macros(e->request->name, e->request->facts.pole_pairs, e->tabulation.period_turns, out);
+    hci_emission_correction_macros(e->request->name, &e->request->facts.correction_values, out);
     hci_output_text(out, "extern const hci_table_f32 %s;\n\n", e->request->name);
     hci_emission_guard_end(out);
 }

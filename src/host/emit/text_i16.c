@@ -120,6 +120,7 @@ void hci_emission_write_spline_header(const hci_emission *e, hci_output *out)
     hci_emission_input(e, out);
     hci_emission_guard(e, out, "hci/table_i16.h", "HCI_TABLE_I16_VERSION", HCI_TABLE_I16_VERSION);
     hci_emission_macros(e->request->name, e->request->facts.pole_pairs, e->tabulation.period_turns, out);
+    hci_emission_correction_macros(e->request->name, &e->request->facts.correction_values, out);
     write_table(e, out);
     hci_emission_guard_end(out);
 }

@@ -1,53 +1,159 @@
-/* The inverse of what sensors do to currents and angles, in words. In: effects; out: what a drive has to do.
- */
+/* The inverse of what sensors do to currents and angles. In: effects; out: what a drive has to do, in numbers
+ * and in lines. */
 #include "hci/host/machine/corrections.h"
 
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
-#include "host/base/words.h"
+/* ---- numbers ---- */
 
-static const char SUBTRACT[] = "subtract ", FROM[] = "from ";
-
-/* "subtract … from" of a value below 0 is "add … to" of its size. */
-static void say_part(const hci_words *w, const char *part, bool adds)
+static void add_wave(hci_corrections *c, hci_effect_correction kind, const hci_effect_term *term)
 {
-    const char *from = adds ? strstr(part, FROM) : NULL;
-    if (adds && strncmp(part, SUBTRACT, strlen(SUBTRACT)) == 0) {
-        hci_words_say(w, "add ");
-        part += strlen(SUBTRACT);
+    if (c->waves == HCI_CORRECTION_WAVES || term->value == 0.0) return;
+    c->wave[c->waves++] =
+        (hci_angle_wave){.order = term->order,
+                         .amplitude_rad = term->value,
+                         .is_mechanical = kind == HCI_CORRECT_TURN_SINE || kind == HCI_CORRECT_TURN_COSINE,
+                         .is_cosine = kind == HCI_CORRECT_ANGLE_COSINE || kind == HCI_CORRECT_TURN_COSINE};
+}
+
+static void take_term(hci_corrections *c, hci_effect_correction kind, const hci_effect_term *term)
+{
+    switch (kind) {
+    case HCI_CORRECT_CURRENT_ZERO:
+        c->zero_A[term->parameter] += term->value;
+        return;
+    case HCI_CORRECT_CURRENT_GAIN:
+        c->gain[term->parameter] /= 1.0 + term->value;
+        return;
+    case HCI_CORRECT_ANGLE_ZERO:
+        c->angle_zero_rad += term->value;
+        return;
+    case HCI_CORRECT_ANGLE_LOAD:
+        c->load_rad_per_A += term->value;
+        return;
+    case HCI_CORRECT_ANGLE_DELAY:
+        c->angle_delay_s += fmax(0.0, term->value);
+        return;
+    case HCI_CORRECT_CURRENT_DELAY:
+        c->current_delay_s += term->value;
+        return;
+    case HCI_CORRECT_CURRENT_FILTER:
+        c->current_filter_s += term->value;
+        return;
+    case HCI_CORRECT_ANGLE_SINE:
+    case HCI_CORRECT_ANGLE_COSINE:
+    case HCI_CORRECT_TURN_SINE:
+    case HCI_CORRECT_TURN_COSINE:
+        add_wave(c, kind, term);
+        return;
+    case HCI_CORRECT_NOTHING:
+        return;
     }
-    if (from) hci_words_say(w, "%.*sto ", (int)(from - part), part);
-    hci_words_say(w, "%s", from ? from + strlen(FROM) : part);
 }
 
-/* Of a gain, which is near 1, what it departs by counts: its digits are two more. */
-static void say_term(const hci_words *w, const hci_effect_correction *c, const hci_effect_term *term)
+static void take_type(const hci_effects *effects, const hci_effect_type *type, hci_corrections *c)
 {
-    const bool adds = term->value < 0.0 && strncmp(c->before, SUBTRACT, strlen(SUBTRACT)) == 0;
-    const double value = c->plus + term->value;
-    hci_words_say(w, "%s", *w->text ? ", " : "");
-    say_part(w, c->before, adds);
-    hci_words_say(w, "%.*g", c->plus != 0.0 ? 5 : 3, adds ? -value : value);
-    say_part(w, c->after, adds);
-    if (c->behind) hci_words_say(w, "%.5g%s", term->order, c->behind);
+    for (size_t n = 0; n < effects->count && type->correction; ++n) {
+        const hci_effect *e = &effects->effect[n];
+        for (size_t k = 0; k < e->count && e->type == type; ++k)
+            take_term(c, type->correction[e->term[k].parameter], &e->term[k]);
+    }
 }
 
-/* No sensor reads before it is true: a time below 0 is more likely that of the torque sensor, which is late.
- */
-static bool is_said(const hci_effect_correction *c, double value)
+/* Effects act in the order of their registry: what acts last is undone first. */
+void hci_corrections_take(const hci_effects *effects, hci_corrections *c)
 {
-    return c->late_alone ? value > 0.0 : value != 0.0;
+    size_t types = 0;
+    *c = (hci_corrections){.gain = {1.0, 1.0, 1.0}};
+    while (hci_effect_type_at(types) != NULL)
+        ++types;
+    while (types-- > 0)
+        take_type(effects, hci_effect_type_at(types), c);
+    for (size_t s = 0; s < 3; ++s)
+        c->has_currents = c->has_currents || c->zero_A[s] != 0.0 || c->gain[s] != 1.0;
+    c->has_angle = c->angle_zero_rad != 0.0 || c->waves > 0 || c->load_rad_per_A != 0.0;
+}
+
+/* ---- lines ---- */
+
+typedef struct {
+    char *text;
+    size_t size, used;
+} lines;
+
+/* A line that has no room is left out. */
+static void say(lines *l, const char *format, ...)
+{
+    char line[160];
+    va_list values;
+    va_start(values, format);
+    const int length = vsnprintf(line, sizeof line, format, values);
+    va_end(values);
+    if (length < 0 || l->used + (size_t)length + 2 > l->size) return;
+    l->used += (size_t)snprintf(l->text + l->used, l->size - l->used, "%s%s", l->used > 0 ? "\n" : "", line);
+}
+
+/* What is taken away, with its sign: "- 0.02" or "+ 0.02". */
+#define LESS(value) (value) < 0.0 ? '+' : '-', fabs(value)
+
+static void say_currents(lines *l, const hci_corrections *c)
+{
+    for (int s = 0; s < 3; ++s) {
+        const char phase = "abc"[s];
+        const double zero_A = c->zero_A[s], gain = c->gain[s];
+        if (zero_A != 0.0 && gain != 1.0)
+            say(l, "i_%c = (i_%c_read %c %.3g A) * %.5g", phase, phase, LESS(zero_A), gain);
+        else if (zero_A != 0.0)
+            say(l, "i_%c = (i_%c_read %c %.3g A)", phase, phase, LESS(zero_A));
+        else if (gain != 1.0)
+            say(l, "i_%c = i_%c_read * %.5g", phase, phase, gain);
+    }
+}
+
+/* read: "_read" in the first line of an angle, "" below it. */
+static void say_wave(lines *l, const hci_angle_wave *w, const char *read)
+{
+    const char *angle = w->is_mechanical ? "theta_m" : "theta";
+    say(l, "%s = %s%s %c %.3g rad * %s(%.5g %s%s) (%s)", angle, angle, read, LESS(w->amplitude_rad),
+        w->is_cosine ? "cos" : "sin", w->order, angle, read, w->is_mechanical ? "mechanical" : "electrical");
+}
+
+static void say_angle(lines *l, const hci_corrections *c)
+{
+    static const char READ[] = "_read";
+    const char *read = READ;
+    if (c->angle_zero_rad != 0.0) {
+        say(l, "theta = theta%s %c %.3g rad (electrical)", read, LESS(c->angle_zero_rad));
+        read = "";
+    }
+    for (size_t k = 0; k < c->waves; ++k, read = "")
+        say_wave(l, &c->wave[k], read);
+    if (c->load_rad_per_A != 0.0) {
+        say(l, "theta = theta%s %c %.3g rad/A * i_q (electrical)", read, LESS(c->load_rad_per_A));
+        read = "";
+    }
+    if (c->angle_delay_s > 0.0)
+        say(l, "theta = theta%s + %.3g s * d theta/dt (the angle is late)", read, c->angle_delay_s);
+}
+
+static void say_delays(lines *l, const hci_corrections *c)
+{
+    if (c->current_delay_s != 0.0)
+        say(l, "currents: with the angle of %.3g s before (they are late)", c->current_delay_s);
+    if (c->current_filter_s != 0.0)
+        say(l, "currents: with the angle of %.3g s before (of their low pass)", c->current_filter_s);
 }
 
 void hci_corrections_words(const hci_effects *effects, char *text, size_t size)
 {
-    const hci_words w = {text, size};
+    hci_corrections c;
+    lines l = {text, size, 0};
     text[0] = '\0';
-    for (size_t n = 0; n < effects->count; ++n) {
-        const hci_effect *e = &effects->effect[n];
-        for (size_t k = 0; k < e->count && e->type->correction; ++k) {
-            const hci_effect_correction *c = &e->type->correction[e->term[k].parameter];
-            if (c->before && is_said(c, e->term[k].value)) say_term(&w, c, &e->term[k]);
-        }
-    }
+    hci_corrections_take(effects, &c);
+    say_currents(&l, &c);
+    say_angle(&l, &c);
+    say_delays(&l, &c);
 }

@@ -212,7 +212,9 @@ static hci_status verdict_of(const hci_solution *s)
 /* Names of the effects that do not act in the machine, and what that means. */
 static void remark_left_out(const hci_effects *effects, const char *corrections, hci_note *remark)
 {
-    char names[256] = "";
+    char names[256] = "", lines[HCI_CORRECTIONS_SIZE] = "";
+    for (size_t k = 0; corrections[k] != '\0'; ++k)
+        lines[k] = (char)(corrections[k] == '\n' ? ';' : corrections[k]);
     for (size_t k = 0; k < effects->count; ++k) {
         const size_t used = strlen(names);
         if (effects->effect[k].type->in_machine) continue;
@@ -228,7 +230,7 @@ static void remark_left_out(const hci_effects *effects, const char *corrections,
             ? "; the currents are for the true angle and the true current, so the drive that plays them has "
               "to correct what its sensors read, where they are those of the recordings: "
             : "",
-        corrections);
+        lines);
 }
 
 /* Everything that is freed when a solution is made. */

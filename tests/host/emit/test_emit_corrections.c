@@ -25,14 +25,14 @@ static const char *written(const char *corrections)
 
 #define HEAD                                                                                                 \
     " * Sensors: the currents are for the true angle and the true current. A drive with the\n"               \
-    " *         sensors of the recordings has to correct what they read:\n"
+    " *         sensors of the recordings has to correct what they read, in the order of these\n"            \
+    " *         lines; the numbers are macros below:\n"
 
 static void test_one_to_a_line(void)
 {
     TEST_ASSERT_EQUAL_STRING("", written(""));
-    TEST_ASSERT_EQUAL_STRING(HEAD " *         an angle of 2 deg.\n", written("an angle of 2 deg"));
-    TEST_ASSERT_EQUAL_STRING(HEAD " *         a,\n *         b,c,\n *         a gain.\n",
-                             written("a, b,c, a gain"));
+    TEST_ASSERT_EQUAL_STRING(HEAD " *           an angle of 2 deg\n", written("an angle of 2 deg"));
+    TEST_ASSERT_EQUAL_STRING(HEAD " *           a, b\n *           c\n", written("a, b\nc"));
 }
 
 int main(void)

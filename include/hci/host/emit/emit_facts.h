@@ -25,6 +25,7 @@ typedef struct {
     double angle_offset_deg;        /* that theta is ahead of the electrical angle of the recordings; 0: it is
                                      * that angle, or nothing is known of them */
     char corrections[HCI_CORRECTIONS_SIZE]; /* of the sensors that the machine was recorded with; "": none */
+    hci_corrections correction_values;      /* the same in numbers */
 } hci_emit_facts;
 
 /* What the folder of a machine says, as hci_machine_read has read it; mean_torque_Nm stays. HCI_ERROR_INPUT,

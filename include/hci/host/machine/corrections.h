@@ -12,14 +12,37 @@
 extern "C" {
 #endif
 
-/* Bytes that the words of all sensors of a drive fit in. */
-enum { HCI_CORRECTIONS_SIZE = 1024 };
+/* Bytes that the lines of all sensors of a drive fit in, and waves of the angle. */
+enum { HCI_CORRECTIONS_SIZE = 2048, HCI_CORRECTION_WAVES = 24 };
 
-/* The corrections of the current and position sensors that `effects` describe, with their values: "take 0.06
- * A from i_a, …; divide i_a by 1.012; …", each the inverse of its effect to first order, in ASCII for the
- * comment of a source. Torque sensors are none of a drive, and an angle that seems to be read before it is true
- * is left as it is. text: out; "" where there is nothing to correct;
- * what has no room is cut off. size: of text, HCI_CORRECTIONS_SIZE will do. */
+/* What an angle reads too much: amplitude × sin or cos of order × angle. */
+typedef struct {
+    double order, amplitude_rad;
+    bool is_mechanical, is_cosine;
+} hci_angle_wave;
+
+/* The current and position sensors of a drive, as numbers: i = (i_read − zero) × gain of each phase, and of
+ * the electrical angle θ and the mechanical θ_m, from top to bottom, each line with what the one above has
+ * made. Start of hci_corrections_take. */
+typedef struct {
+    bool has_currents; /* a zero that is not 0 or a gain that is not 1 */
+    bool has_angle;    /* one of angle_zero_rad to load_rad_per_A */
+    double zero_A[3], gain[3];
+    double angle_zero_rad;                     /* θ = θ_read − this */
+    size_t waves;                              /* electrical ones first, θ − amplitude × sin(order θ) */
+    hci_angle_wave wave[HCI_CORRECTION_WAVES]; /* then θ_m − amplitude × sin(order θ_m) */
+    double load_rad_per_A;                     /* θ − this × i_q */
+    double angle_delay_s;                      /* θ + this × dθ/dt */
+    double current_delay_s, current_filter_s;  /* the currents are those of the angle of so much before */
+} hci_corrections;
+
+/* What `effects` describe, each the inverse of its effect, to first order where an angle bends. Torque
+ * sensors are none of a drive, and an angle that seems to be read before it is true is left as it is. */
+void hci_corrections_take(const hci_effects *effects, hci_corrections *corrections);
+
+/* The same in ASCII, a line for each, "i_b = (i_b_read - 0.008 A) * 1.0211", in the order in which they are
+ * to be done, divided by '\n'; "" where there is nothing to correct; lines that have no room are left out.
+ * size: of text, HCI_CORRECTIONS_SIZE will do. */
 void hci_corrections_words(const hci_effects *effects, char *text, size_t size);
 
 #ifdef __cplusplus
