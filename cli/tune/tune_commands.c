@@ -18,8 +18,7 @@ void cli_tune_note(cli_tuning *t, const char *format, ...)
     va_end(arguments);
 }
 
-/* What needs no quotes in a shell. */
-static bool is_plain(const char *word)
+bool cli_tune_is_plain(const char *word)
 {
     return *word && strspn(word, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./,=:") ==
                         strlen(word);
@@ -42,7 +41,7 @@ void cli_tune_note_word(cli_tuning *t, const char *word, bool is_name)
         !is_name && strncmp(word, t->out, length) == 0 && (word[length] == '/' || word[length] == '\0');
     cli_tune_note(t, is_out ? " \"$OUT\"" : " ");
     word += is_out ? length : 0;
-    if (is_plain(word))
+    if (cli_tune_is_plain(word))
         cli_tune_note(t, "%s", word);
     else if (!is_out || *word)
         note_quoted(t, word);

@@ -30,6 +30,9 @@ void cli_tune_note(cli_tuning *tune, const char *format, ...) HCI_PRINTF(2, 3);
 void cli_tune_note_word(cli_tuning *tune, const char *word, bool is_name);
 void cli_tune_note_line(cli_tuning *tune, const cli_tune_line *line, bool may_be_no);
 
+/* What needs no quotes in a shell. */
+bool cli_tune_is_plain(const char *word);
+
 /* Runs a command here without words, and notes it. What it ends with is the status, with a note. */
 hci_status cli_tune_run(cli_tuning *tune, const cli_command *command, cli_tune_line *line, hci_note *note);
 

@@ -9,6 +9,7 @@
 #include "cli/tune/tune_sheet.h"
 #include "cli/tune/tune_size.h"
 #include "cli/tune/tune_suspect.h"
+#include "cli/tune/words/tune_go_on.h"
 #include "cli/tune/words/tune_heading.h"
 #include "cli/tune/words/tune_next.h"
 #include "cli/tune/words/tune_unknown.h"
@@ -73,6 +74,7 @@ void cli_tune_conclude(cli_tuning *t)
     r->log = t->runs.count > 0 ? &t->runs.run[t->shown] : NULL;
     cli_tune_say_unknown(t);
     cli_tune_say_next(t);
+    cli_tune_say_go_on(t);
     say_errors(t);
     r->good = is_sound(t) && is_good(t);
     snprintf(r->verdict, sizeof r->verdict, "%s", verdict_of(t));
