@@ -142,7 +142,7 @@ for kind in abc dq; do
     salients $kind
     whatever tune $logs $sheet --torque 15 -o salient_$kind
     check "$kind: begin again for a saliency: $(grep -o 'the electrical zero of the logs.*\|--angle-offset [-0-9.]* takes' "$work/stdout" | head -n 1)" \
-        [ "$(grep -cE 'begin again with|angle-offset [-0-9.]+ takes it out|subtract .* from the electrical angle' "$work/stdout")" -eq 0 ]
+        [ "$(grep -cE 'begin again with|angle-offset [-0-9.]+ takes it out|theta = theta_read' "$work/stdout")" -eq 0 ]
 done
 
 # ---- a motor that brakes: the current vector is mirrored about d, and the ripple of its torque has the other sign

@@ -19,7 +19,7 @@ printf 'effect,parameter,value,unit,std_error\ntorque_sensor,offset,0.05,Nm,\nch
 printf 'order,amplitude_Nm,phase_rad\n0,0.5,0\n' >target.csv
 run 0 solve sensors --target target.csv --auto -o solved
 check "the sensors are not on standard output" grep -q '^      i_c = i_c_read \* 0.99' "$work/stdout"
-says 'note: .*add to the angle, for its delay, the speed times 1e-05 s' 'note: .*subtract 0.02 rad from the electrical angle'
+says 'note: .*theta = theta . 1e-05 s \* d theta/dt' 'note: .*, theta = theta_read - 0.02 rad .electrical.,'
 run 0 emit solved --name corrected --machine sensors -o solved
 check "the header has no sensors" grep -q '^ \*           i_c = i_c_read \* 0\.990' solved/corrected.h
 run 0 solve bench --target target.csv --auto -o alone

@@ -209,12 +209,20 @@ static hci_status verdict_of(const hci_solution *s)
     return s->within_limits ? HCI_OK : HCI_NOT_REACHED;
 }
 
+static void join_lines(const char *text, char *joined, size_t size)
+{
+    for (const char *line = text; *line != '\0'; line += strspn(line, "\n")) {
+        const size_t used = strlen(joined), length = strcspn(line, "\n");
+        snprintf(joined + used, size - used, "%s%.*s", used > 0 ? ", " : "", (int)length, line);
+        line += length;
+    }
+}
+
 /* Names of the effects that do not act in the machine, and what that means. */
 static void remark_left_out(const hci_effects *effects, const char *corrections, hci_note *remark)
 {
     char names[256] = "", lines[HCI_CORRECTIONS_SIZE] = "";
-    for (size_t k = 0; corrections[k] != '\0'; ++k)
-        lines[k] = (char)(corrections[k] == '\n' ? ';' : corrections[k]);
+    join_lines(corrections, lines, sizeof lines);
     for (size_t k = 0; k < effects->count; ++k) {
         const size_t used = strlen(names);
         if (effects->effect[k].type->in_machine) continue;

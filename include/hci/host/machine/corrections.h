@@ -17,23 +17,27 @@ enum { HCI_CORRECTIONS_SIZE = 2048, HCI_CORRECTION_WAVES = 24 };
 
 /* What an angle reads too much: amplitude × sin or cos of order × angle. */
 typedef struct {
-    double order, amplitude_rad;
-    bool is_mechanical, is_cosine;
+    double order;         /* in a turn of that angle */
+    double amplitude_rad; /* of that angle, signed */
+    bool is_mechanical;   /* the angle is the mechanical one */
+    bool is_cosine;       /* cos and not sin */
 } hci_angle_wave;
 
 /* The current and position sensors of a drive, as numbers: i = (i_read − zero) × gain of each phase, and of
  * the electrical angle θ and the mechanical θ_m, from top to bottom, each line with what the one above has
- * made. Start of hci_corrections_take. */
+ * made. */
 typedef struct {
-    bool has_currents; /* a zero that is not 0 or a gain that is not 1 */
-    bool has_angle;    /* one of angle_zero_rad to load_rad_per_A */
-    double zero_A[3], gain[3];
+    bool has_currents;                         /* a zero that is not 0 or a gain that is not 1 */
+    bool has_angle;                            /* one of angle_zero_rad to load_rad_per_A */
+    double zero_A[3];                          /* of the phases, taken away before the gain */
+    double gain[3];                            /* of the phases, by which what is left is multiplied */
     double angle_zero_rad;                     /* θ = θ_read − this */
     size_t waves;                              /* electrical ones first, θ − amplitude × sin(order θ) */
     hci_angle_wave wave[HCI_CORRECTION_WAVES]; /* then θ_m − amplitude × sin(order θ_m) */
     double load_rad_per_A;                     /* θ − this × i_q */
     double angle_delay_s;                      /* θ + this × dθ/dt */
-    double current_delay_s, current_filter_s;  /* the currents are those of the angle of so much before */
+    double current_delay_s;                    /* the currents are those of the angle of so much before */
+    double current_filter_s;                   /* the same of their low pass */
 } hci_corrections;
 
 /* What `effects` describe, each the inverse of its effect, to first order where an angle bends. Torque

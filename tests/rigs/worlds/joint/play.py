@@ -18,11 +18,11 @@ def sensors(h):
     """corrections of angle: list (sign,amp,fn,n); currents offs, gains"""
     ang=[];offs=[0,0,0];gain=[1,1,1]
     hh=re.sub(r'\n \* +',' ',h)
-    for s,a,f,n in re.findall(r'(subtract|add) (?:from|to) the mechanical angle (\S+) rad (sin|cos)\((\d*) ?theta_m\)',hh):
-        ang.append((-1 if s=='subtract' else 1,float(a),f,int(n or 1)))
-    for s,a,p in re.findall(r'(subtract|add) (\S+) A (?:from|to) i_([abc])',hh):
-        offs['abc'.index(p)]=(1 if s=='subtract' else -1)*float(a)
-    for p,a in re.findall(r'divide i_([abc]) by ([\d.]+)',hh): gain['abc'.index(p)]=float(a.rstrip('.'))
+    for s,a,f,n in re.findall(r'theta_m = theta_m(?:_read)? ([-+]) (\S+) rad \* (sin|cos)\((\d+) theta_m',hh):
+        ang.append((-1 if s=='-' else 1,float(a),f,int(n)))
+    for p,s,a in re.findall(r'i_([abc]) = \(i_[abc]_read ([-+]) (\S+) A\)',hh):
+        offs['abc'.index(p)]=(1 if s=='-' else -1)*float(a)
+    for p,a in re.findall(r'i_([abc]) = \(?i_[abc]_read(?: [-+] \S+ A\))? \* ([\d.]+)',hh): gain['abc'.index(p)]=1/float(a)
     return ang,offs,gain
 def table(folder,thm,p,correct=True):
     """dq of the table at the log's mechanical angle thm (array), correcting the angle; returns te_used (elec), id, iq"""

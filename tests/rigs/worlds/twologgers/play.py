@@ -12,12 +12,12 @@ m=re.search(r'2\^32 of the angle is (\d+) electrical',re.sub(r'\s+',' ',subproce
 turns=int(m.group(1)) if m else 1
 txt=re.sub(r'\s+',' ',open(folder+'.txt').read())
 gi=[1,1,1];oi=[0,0,0];ang=[]
-mm=re.search(r'(correct(?:ed)? before: .*?)(?: - |; where they read right|plain sine)',txt)
+mm=re.search(r'(correct(?:ed)? before, in the order.*?)(?: - [A-Z]|plain sine)',txt)
 c=mm.group(1) if mm else ''
 for k,n in enumerate('abc'):
-    q=re.search(r'divide i_%s by ([\d.]+)'%n,c); gi[k]=float(q.group(1)) if q else 1
-    q=re.search(r'(subtract|add) ([\d.e-]+) A (?:from|to) i_%s'%n,c); oi[k]=(1 if q.group(1)=='subtract' else -1)*float(q.group(2)) if q else 0
-for s,wd,a,f,n in re.findall(r'(subtract|add) (?:from|to) the mechanical angle ([\d.e-]+)() rad (sin|cos)\((\d+) theta_m',c): ang.append(((1 if s=='subtract' else -1)*float(wd),f,int(n)))
+    q=re.search(r'i_%s = \(?i_%s_read(?: [-+] \S+ A\))? \* ([\d.]+)'%(n,n),c); gi[k]=1/float(q.group(1)) if q else 1
+    q=re.search(r'i_%s = \(i_%s_read ([-+]) (\S+) A\)'%(n,n),c); oi[k]=(1 if q.group(1)=='-' else -1)*float(q.group(2)) if q else 0
+for s,wd,f,n in re.findall(r'theta_m = theta_m(?:_read)? ([-+]) (\S+) rad \* (sin|cos)\((\d+) theta_m',c): ang.append(((1 if s=='-' else -1)*float(wd),f,int(n)))
 M={'servo':servo,'hub':hub,'ipm':ipm}[mot]; S={'servo':S1,'hub':Sens(),'ipm':S3}[mot]; p=M.p
 N=int(os.environ.get('N',7000)); thm=np.arange(N)*2*np.pi/N
 def play(fn,corr):
