@@ -4,12 +4,13 @@
 
 #include "hci/math/harmonic.h"
 
-#define TOLD          0.48 /* orders for each sample of a turn, as diagnose looks for them */
-#define MOST_ORDER    96.0 /* electrical, likewise */
-#define LEAST_ARC     0.02 /* electrical turns: a shaft that is held moves as much */
-#define WHOLE         0.95 /* of a turn: the last sample stands before the first one */
-#define LEAST_ORDER   12.0 /* electrical, that three phases make first but for 6 */
-#define SLOT_MULTIPLE 2.0  /* of the order of slots and poles: its first harmonic */
+#define TOLD          0.48           /* orders for each sample of a turn, as diagnose looks for them */
+#define MOST_ORDER    96.0           /* electrical, likewise */
+#define LEAST_ARC     0.02           /* electrical turns: a shaft that is held moves as much */
+#define WHOLE         0.95           /* of a turn: the last sample stands before the first one */
+#define LEAST_ORDER   12.0           /* electrical, that three phases make first but for 6 */
+#define SLOT_MULTIPLE 2.0            /* of the order of slots and poles: its first harmonic */
+#define GAP_OF_ORDER  (0.8 * HCI_PI) /* by the order: a gap that is wider may hide it, as in waveforms */
 
 double cli_tune_order_of_slots(const cli_tuning *t)
 {
@@ -43,6 +44,37 @@ static double share_of_turn(const hci_run *r, double samples_a_turn)
         *at = true;
     }
     return (double)seen / (double)parts;
+}
+
+/* The largest part of the mechanical turn that no sample of a run is in, whichever way the shaft turned
+ * there; a whole turn where the turn is not known. In cells, so that it is at most one of them too large. */
+static double gap_rad(const hci_run *r)
+{
+    enum { CELLS = 16384 };
+    bool is_seen[CELLS] = {false};
+    size_t empty = 0, most = 0;
+    for (size_t k = 0; r->turn_known && r->theta_m_rad && k < r->count; ++k) {
+        const double turn = r->theta_m_rad[k] / (2.0 * HCI_PI);
+        is_seen[(size_t)((turn - floor(turn)) * CELLS) % CELLS] = true;
+    }
+    for (size_t k = 0; k < 2 * CELLS; ++k) { /* twice round: a gap may lie across the end */
+        empty = is_seen[k % CELLS] ? 0 : empty + 1;
+        most = empty > most ? empty : most;
+    }
+    return most >= CELLS ? 2.0 * HCI_PI : 2.0 * HCI_PI * (double)(most + 1) / CELLS;
+}
+
+double cli_tune_widest_gap_rad(const cli_tuning *t)
+{
+    return GAP_OF_ORDER / (cli_tune_order_of_slots(t) * t->declared.model.pole_pairs);
+}
+
+double cli_tune_least_gap_rad(const cli_tuning *t)
+{
+    double least = 2.0 * HCI_PI;
+    for (size_t k = 0; k < t->runs.count; ++k)
+        if (t->runs.run[k].torque_source == HCI_TORQUE_HOLDING) least = fmin(least, gap_rad(&t->runs.run[k]));
+    return least;
 }
 
 cli_tune_cover cli_tune_cover_of(const hci_run *r)

@@ -26,6 +26,13 @@ bool cli_tune_is_short(const cli_tuning *tune);
  * those that there are lie close enough. */
 bool cli_tune_has_gap(const cli_tuning *tune);
 
+/* The largest part of the mechanical turn without a sample in either direction, of the slow turn that has the
+ * smallest; 2π without such a turn. */
+double cli_tune_least_gap_rad(const cli_tuning *tune);
+
+/* The widest gap across which the order of slots and poles is told. */
+double cli_tune_widest_gap_rad(const cli_tuning *tune);
+
 /* Whether orders that slots and poles make twice over, or order 12, lie beyond what the samples tell. */
 bool cli_tune_is_coarse(const cli_tuning *tune);
 

@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "cli/tune/tune_commands.h"
+#include "cli/tune/tune_cover.h"
 #include "cli/tune/tune_options.h"
 #include "cli/tune/tune_read.h"
 #include "cli/tune/tune_recorded.h"
@@ -231,13 +232,17 @@ static hci_waveform_options options_of(const cli_tuning *t, const hci_run *r, hc
                                       holds ? t->reading.run.torque_constant_Nm_per_A : (double)NAN};
 }
 
-/* Takes note of how far cogging torque was looked at. Whether the order of slots and poles is in that. */
+/* Takes note of how far cogging torque was looked at. Whether the order of slots and poles is in that. Where
+ * a slow turn does not tell it each way, as with rows missing, but has samples all round in both ways
+ * together, it is left to diagnose, which takes friction out by itself. */
 static bool reaches_slots(cli_tuning *t, const hci_waveform *w)
 {
-    t->cogging_reach = (double)w->count * w->step;
-    t->has_alias =
-        cli_tune_order_of_slots(t) > t->cogging_reach + HCI_ORDER_TOLERANCE && !cli_tune_has_high_slots(t);
-    return !t->has_alias; /* until another recording shows it */
+    const double reach = (double)w->count * w->step;
+    const bool reaches =
+        cli_tune_order_of_slots(t) <= reach + HCI_ORDER_TOLERANCE || cli_tune_has_high_slots(t);
+    t->has_alias = !reaches && cli_tune_least_gap_rad(t) > cli_tune_widest_gap_rad(t);
+    t->cogging_reach = reaches || t->has_alias ? reach : 0.0;
+    return reaches; /* or until another recording shows it */
 }
 
 static hci_status find_waveform(cli_tuning *t, size_t k, hci_waveform_quantity quantity, bool *found,

@@ -8,6 +8,9 @@
 #include "cli/tune/tune_options.h"
 #include "cli/tune/tune_suspect.h"
 
+#define FURTHER_ROUND 1.05 /* turns, from which on the ends of the way are passed in both directions */
+#define SLOWER        0.9  /* of the speed at which a gap would just be narrow enough */
+
 static bool has_sensor(const cli_tuning *t)
 {
     for (size_t k = 0; k < t->diagnosis.runs; ++k)
@@ -188,16 +191,32 @@ static void say_next_turn(cli_tuning *t)
         hci_tuning_say(r, HCI_TUNING_NEXT, "%s", next_recording(t));
 }
 
+/* Of a turn in which a part has no samples: that of its ends, or another one. */
+static void say_next_gap(cli_tuning *t)
+{
+    const double gap_deg = cli_tune_least_gap_rad(t) * 180.0 / HCI_PI,
+                 widest_deg = cli_tune_widest_gap_rad(t) * 180.0 / HCI_PI;
+    if (t->turns < FURTHER_ROUND)
+        hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
+                       "Turn somewhat further than once round each way, such as 1.1 turns, so that the place "
+                       "at which the shaft "
+                       "starts and turns round is passed as well.");
+    else
+        hci_tuning_say(&t->tuning, HCI_TUNING_NEXT,
+                       "Turn more slowly, at %.1g of the speed, or log without missing rows: %.2g degrees of "
+                       "the turn have no sample in either direction, and order %.5g needs them within %.2g "
+                       "degrees. If the shaft jumps there, control its speed more stiffly.",
+                       fmin(0.9, SLOWER * widest_deg / gap_deg), gap_deg, cli_tune_order_of_slots(t),
+                       widest_deg);
+}
+
 /* Of logs that contradict themselves. */
 static void say_next_correction(cli_tuning *t)
 {
     hci_tuning *r = &t->tuning;
     const double order = cli_tune_order_of_slots(t);
     if (cli_tune_has_gap(t))
-        hci_tuning_say(r, HCI_TUNING_NEXT,
-                       "Turn somewhat further than once round each way, such as 1.1 turns, so that the place "
-                       "at which the shaft "
-                       "starts and turns round is passed as well.");
+        say_next_gap(t);
     else if (t->has_alias)
         hci_tuning_say(
             r, HCI_TUNING_NEXT,
