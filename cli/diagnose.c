@@ -341,8 +341,8 @@ static hci_status search(inputs *in, hci_diagnosis *d, hci_note *note)
     in->options.slip = hci_check_slip;
     in->options.slip_context = &in->check;
     cli_signals_defer();
-    const hci_status status =
-        hci_diagnose(&in->machine, &in->declared.list, &in->runs, &in->options, d, note);
+    const hci_status status = (in->recordings_before > 0 ? hci_diagnose_further : hci_diagnose)(
+        &in->machine, &in->declared.list, &in->runs, &in->options, d, note);
     cli_signals_catch();
     return status;
 }
@@ -372,6 +372,7 @@ static int run(const cli_arguments *a)
     status = read_inputs(a, &in, &note);
     if (!status) status = search(&in, &diagnosis, &note);
     if (status <= HCI_NOT_REACHED) status = compare(a, &in, status, &diagnosis, &again, &note);
+    if (status <= HCI_NOT_REACHED && diagnosis.without_cogging) in.machine.model.cogging_count = 0;
     if (status <= HCI_NOT_REACHED) {
         exit_code = solve_and_give(a, &in, &diagnosis, status);
         hci_diagnosis_release(&diagnosis);

@@ -17,19 +17,21 @@ static const double LEAST_ORDER = 12.0, CHANCE = 0.05, ERRORS = 2.0;
 
 const char *hci_played_currents_name(hci_played_currents currents)
 {
-    static const char *const NAMES[] = {"not_known", "as_solved", "turned", "another_size", "others"};
+    static const char *const NAMES[] = {"not_known",    "as_solved", "turned",
+                                        "another_size", "others",    "beside"};
     return NAMES[currents];
 }
 
 const char *hci_promise_name(hci_promise promise)
 {
-    static const char *const NAMES[] = {"not_judged", "kept", "not_kept", "not_told"};
+    static const char *const NAMES[] = {"not_judged", "kept", "not_kept", "not_told", "uncorrected"};
     return NAMES[promise];
 }
 
 bool hci_played_is_bad(const hci_played *played)
 {
-    return played->currents == HCI_PLAYED_TURNED || played->promise == HCI_PROMISE_NOT_KEPT;
+    return played->currents == HCI_PLAYED_TURNED || played->promise == HCI_PROMISE_NOT_KEPT ||
+           played->promise == HCI_PROMISE_UNCORRECTED;
 }
 
 /* ---- the currents ---- */
@@ -47,12 +49,36 @@ static hci_played_currents currents_of(const hci_table_rotation *x)
     return HCI_PLAYED_AS_SOLVED;
 }
 
+/* Standard errors by which what the table has beside its sine stands out of what else flows. */
+static const double STANDS_OUT = 5.0;
+
+/* Whether the harmonics are those of the table, whatever sine flows beside them; of a table that seems
+ * turned, or of another size, only where they are not so, too. turned: harmonics at the angle by which it
+ * seems so. */
+static bool is_beside(const hci_played *p, double turned)
+{
+    const hci_table_beside *b = &p->beside;
+    const double off = fabs(b->harmonics - 1.0);
+    if (!(b->harmonics > STANDS_OUT * b->harmonics_error) || p->rotation.of_index || p->rotation.backwards)
+        return false;
+    if (off > HARMONICS + 3.0 * b->harmonics_error) return false;
+    if (p->currents == HCI_PLAYED_TURNED) return turned < b->harmonics;
+    return p->currents == HCI_PLAYED_OTHERS || off < fabs(b->harmonics - p->rotation.gain);
+}
+
 static hci_status currents_judge(const hci_solved_currents *solved, const hci_run *run, int pole_pairs,
-                                 hci_played *p, hci_note *note)
+                                 const hci_effects *effects, hci_played *p, hci_note *note)
 {
     hci_note why = {{0}};
     const hci_status status = hci_table_rotation_of(&solved->table, run, pole_pairs, &p->rotation, &why);
-    if (status == HCI_OK) p->currents = currents_of(&p->rotation);
+    if (status == HCI_OK) {
+        const double ahead_rad = p->rotation.rotation_rad;
+        p->currents = currents_of(&p->rotation);
+        p->beside = hci_table_beside_of(&solved->table, run, pole_pairs, 0.0, effects);
+        if (p->currents != HCI_PLAYED_AS_SOLVED &&
+            is_beside(p, hci_table_beside_of(&solved->table, run, pole_pairs, ahead_rad, NULL).harmonics))
+            p->currents = HCI_PLAYED_BESIDE;
+    }
     if (status != HCI_ERROR_MEMORY) return HCI_OK; /* without an angle or a current it is not known */
     *note = why;
     return status;
@@ -125,21 +151,34 @@ static hci_status ripple_judge(const hci_run *run, int pole_pairs, hci_played *p
 
 /* ---- the promise ---- */
 
+/* Of the corrections, that are in the currents of a drive which makes none, and the error of that. */
+static const double NONE = 0.25, TOLD = 0.1;
+
+/* Readings that are the table as they stand are of currents that are not. */
+static bool is_uncorrected(const hci_played *p)
+{
+    return p->beside.corrected_error < TOLD && p->beside.corrected < NONE;
+}
+
 static hci_promise promise_of(const hci_solved_currents *solved, const hci_played *p)
 {
     const double error_Nm = ERRORS * p->ripple_error_Nm;
     if (p->currents != HCI_PLAYED_AS_SOLVED || !isfinite(p->ripple_Nm) || !isfinite(solved->promised_Nm))
         return HCI_PROMISE_NOT_JUDGED;
     if (p->ripple_Nm + error_Nm <= solved->promised_Nm) return HCI_PROMISE_KEPT;
-    return p->ripple_Nm - error_Nm > solved->promised_Nm ? HCI_PROMISE_NOT_KEPT : HCI_PROMISE_NOT_TOLD;
+    if (!(p->ripple_Nm - error_Nm > solved->promised_Nm)) return HCI_PROMISE_NOT_TOLD;
+    return is_uncorrected(p) ? HCI_PROMISE_UNCORRECTED : HCI_PROMISE_NOT_KEPT;
 }
 
 hci_status hci_played_judge(const hci_solved_currents *solved, const hci_run *run, int pole_pairs,
-                            hci_played *p, hci_note *note)
+                            const hci_effects *effects, hci_played *p, hci_note *note)
 {
-    *p = (hci_played){.ripple_Nm = (double)NAN, .ripple_error_Nm = (double)NAN, .ripple_order = (double)NAN};
+    *p = (hci_played){.is_of_control = run->torque_source == HCI_TORQUE_HOLDING,
+                      .ripple_Nm = (double)NAN,
+                      .ripple_error_Nm = (double)NAN,
+                      .ripple_order = (double)NAN};
     if (!solved->folder[0]) return HCI_OK;
-    hci_status status = currents_judge(solved, run, pole_pairs, p, note);
+    hci_status status = currents_judge(solved, run, pole_pairs, effects, p, note);
     if (!status) status = ripple_judge(run, pole_pairs, p, note);
     p->promise = promise_of(solved, p);
     return status;

@@ -20,6 +20,22 @@ static void say_turned(const hci_words *w, const hci_table_rotation *x)
                   fabs(degrees(x->rotation_rad)), x->rotation_rad < 0.0 ? "behind" : "ahead");
 }
 
+static void say_beside(const hci_words *w, const hci_played *p)
+{
+    const hci_table_beside *b = &p->beside;
+    hci_words_say(
+        w,
+        "those that were solved in what they have beside their sine (%.3g ± %.1g times it), and the "
+        "sine is another one, by %.3g A: ",
+        b->harmonics, b->harmonics_error, b->beside_A);
+    hci_words_say(w,
+                  p->is_of_control
+                      ? "the table with what the control adds for load and friction, or the control alone, "
+                        "which makes the same where it turns a shaft slowly: which of both, the run does not "
+                        "tell"
+                      : "the table, and what a control adds for load and friction");
+}
+
 static void say_currents(const hci_words *w, const hci_played *p)
 {
     const hci_table_rotation *x = &p->rotation;
@@ -32,6 +48,8 @@ static void say_currents(const hci_words *w, const hci_played *p)
                       x->gain, HCI_PERCENT(100.0 * x->left, 2));
     else if (p->currents == HCI_PLAYED_TURNED)
         say_turned(w, x);
+    else if (p->currents == HCI_PLAYED_BESIDE)
+        say_beside(w, p);
     else if (p->currents == HCI_PLAYED_RESIZED)
         hci_words_say(w, "not those that were solved, but %.4g times them", x->gain);
     else
@@ -59,9 +77,13 @@ static void say_ripple(const hci_words *w, const hci_solved_currents *solved, co
 
 static void say_promise(const hci_words *w, hci_promise promise)
 {
-    static const char *const WORDS[] = {": this run does not judge that promise.", ": the promise was kept.",
-                                        ": the promise was not kept.",
-                                        ": whether that promise holds the noise of this run does not tell."};
+    static const char *const WORDS[] = {
+        ": this run does not judge that promise.", ": the promise was kept.", ": the promise was not kept.",
+        ": whether that promise holds the noise of this run does not tell.",
+        ": it is promised of sensors that are corrected first, as the header "
+        "of the table asks, and in this run the readings are the table as they "
+        "stand: correct them and record again; what the machine is said to be "
+        "is not contradicted by that."};
     hci_words_say(w, "%s", WORDS[promise]);
 }
 

@@ -156,15 +156,15 @@ static hci_again_run run_of(const hci_run_errors *last, const hci_run_errors *no
                            .kept = last->rms_after_Nm <= bound_Nm};
 }
 
-static hci_status played_fill(const hci_again_question *q, size_t run, const hci_again *a, hci_again_run *to,
-                              hci_note *note)
+static hci_status played_fill(const hci_again_question *q, size_t run, const last_diagnosis *last,
+                              const hci_again *a, hci_again_run *to, hci_note *note)
 {
     const hci_run *r = &q->runs->run[run];
     to->path = q->runs->origin && q->runs->origin[run].path ? q->runs->origin[run].path : r->name;
-    return hci_played_judge(&a->solved, r, q->machine->model.pole_pairs, &to->played, note);
+    return hci_played_judge(&a->solved, r, q->machine->model.pole_pairs, &last->effects.list, &to->played,
+                            note);
 }
 
-/* then: a diagnosis that has nothing but the effects and errors of the last machine on all recordings. */
 /* A diagnosis, and the errors of the machine of last time on the same runs. */
 typedef struct {
     const hci_diagnosis *then, *now;
@@ -183,7 +183,7 @@ static hci_status runs_fill(const hci_again_question *q, const hci_dataset *b, c
         status = open_of(b, &last->uncertainty, k, &open_Nm, note);
         if (status) break;
         a->run[a->runs] = run_of(e, errors_of(d->now, e->file), open_Nm);
-        status = played_fill(q, k, a, &a->run[a->runs++], note);
+        status = played_fill(q, k, last, a, &a->run[a->runs++], note);
     }
     return status;
 }
@@ -211,6 +211,113 @@ static void totals_fill(hci_again *a)
     a->bound_Nm = mean_square_root(a, offsetof(hci_again_run, bound_Nm));
 }
 
+/* ---- what the new recordings alone say of an effect that left ---- */
+
+static const hci_effect *effect_in(const hci_effects *list, const char *name)
+{
+    for (size_t k = 0; k < list->count; ++k)
+        if (strcmp(list->effect[k].type->name, name) == 0) return &list->effect[k];
+    return NULL;
+}
+
+/* All effects but one; the array is to be freed. */
+static hci_status without(const hci_effects *list, const hci_effect *one, hci_effect **effect,
+                          hci_effects *rest, hci_note *note)
+{
+    *effect = hci_memory_new(list->count + 1, sizeof **effect);
+    *rest = (hci_effects){*effect, 0};
+    if (!*effect) return hci_note_memory(note, NULL, "the effects of the last machine");
+    for (size_t k = 0; k < list->count; ++k)
+        if (&list->effect[k] != one) (*effect)[rest->count++] = list->effect[k];
+    return HCI_OK;
+}
+
+static double readings_of(const hci_binned_samples *samples, size_t run)
+{
+    double count = 0.0;
+    for (const hci_segment *s = NULL; (s = hci_segment_next(samples, run, s)) != NULL;)
+        for (size_t j = s->first; j < s->first + s->count; ++j)
+            count += samples->sample[j].count;
+    return count;
+}
+
+/* Twice a logarithm of likelihoods, as of ΔBIC; and the share of what is not noise that has to go with it, so
+ * that it is no accident of a machine which does not describe them. */
+#define DECISIVE 10.0
+#define MATERIAL 0.1
+
+/* Of squares that are left with an effect and without it, and of their noise. */
+typedef struct {
+    double evidence, excess, change;
+} balance;
+
+static void weigh(balance *x, double n, double there, double gone, double noise)
+{
+    if (!(there + noise > 0.0 && gone + noise > 0.0)) return;
+    x->evidence += n * log((gone + noise) / (there + noise));
+    x->excess += n * fmax(there, gone);
+    x->change += n * (gone - there);
+}
+
+static hci_again_speaks speaks_of_balance(const balance *x)
+{
+    if (fabs(x->evidence) < DECISIVE || fabs(x->change) < MATERIAL * x->excess) return HCI_AGAIN_SILENT;
+    return x->change > 0.0 ? HCI_AGAIN_FOR : HCI_AGAIN_AGAINST;
+}
+
+static double beside_noise(double ripple_Nm, double noise_Nm)
+{
+    return fmax(0.0, ripple_Nm * ripple_Nm - noise_Nm * noise_Nm);
+}
+
+/* By ripple and mean, each beside what is left of it: what speaks for an effect in either keeps it from being
+ * contradicted. with, rest: errors of the last machine on all runs, with the effect and without. */
+static hci_again_speaks speaks_of(const hci_again_question *q, const hci_dataset *b,
+                                  const hci_diagnosis *with, const hci_diagnosis *rest)
+{
+    balance ripple = {0.0, 0.0, 0.0}, mean = {0.0, 0.0, 0.0};
+    for (size_t k = q->recordings_before; k < q->runs->count; ++k) {
+        const hci_run_errors *x = errors_of(with, q->runs->run[k].name),
+                             *y = errors_of(rest, q->runs->run[k].name);
+        if (!x || !y) continue;
+        const double n = readings_of(&b->samples, k), noise_Nm = fmin(x->noise_floor_Nm, y->noise_floor_Nm);
+        weigh(&ripple, n, beside_noise(x->ripple_after_Nm, noise_Nm),
+              beside_noise(y->ripple_after_Nm, noise_Nm), noise_Nm * noise_Nm);
+        weigh(&mean, n, pow(x->error_mean_after_Nm, 2.0), pow(y->error_mean_after_Nm, 2.0),
+              noise_Nm * noise_Nm);
+    }
+    const hci_again_speaks by_ripple = speaks_of_balance(&ripple), by_mean = speaks_of_balance(&mean);
+    if (by_ripple == HCI_AGAIN_FOR || by_mean == HCI_AGAIN_FOR) return HCI_AGAIN_FOR;
+    return by_ripple == HCI_AGAIN_AGAINST ? by_ripple : by_mean;
+}
+
+static hci_status ask_without(const hci_again_question *q, hci_dataset *b, const last_diagnosis *last,
+                              const hci_diagnosis *then, hci_again_effect *e, hci_note *note)
+{
+    const hci_effects *list = &last->effects.list;
+    const hci_effect *one = effect_in(list, e->effect);
+    hci_effect *effect = NULL;
+    hci_effects rest;
+    hci_diagnosis d = {0};
+    if (!one) return HCI_OK; /* it was ambiguous, and in no machine */
+    hci_status status = without(list, one, &effect, &rest, note);
+    if (!status) status = hci_run_errors_of(b, q->runs, &rest, &d, note);
+    if (!status) e->speaks = speaks_of(q, b, then, &d);
+    hci_memory_free(d.run);
+    hci_memory_free(effect);
+    return status;
+}
+
+static hci_status speaks_fill(const hci_again_question *q, hci_dataset *b, const last_diagnosis *last,
+                              const hci_diagnosis *then, hci_again *a, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    for (size_t k = 0; k < a->effects && !status; ++k)
+        if (a->effect[k].change == HCI_AGAIN_LEFT)
+            status = ask_without(q, b, last, then, &a->effect[k], note);
+    return status;
+}
+
 static hci_status new_runs_fill(const hci_again_question *q, const last_diagnosis *last,
                                 const hci_diagnosis *d, hci_again *a, hci_note *note)
 {
@@ -220,6 +327,7 @@ static hci_status new_runs_fill(const hci_again_question *q, const last_diagnosi
     if (status) return status;
     status = hci_run_errors_fill(&b, q->runs, 0, &then, note);
     if (!status) status = runs_fill(q, &b, last, &(both_diagnoses){&then, d}, a, note);
+    if (!status) status = speaks_fill(q, &b, last, &then, a, note);
     then.effects = (hci_effects_data){0};
     hci_diagnosis_release(&then);
     hci_dataset_release(&b);
@@ -228,13 +336,6 @@ static hci_status new_runs_fill(const hci_again_question *q, const last_diagnosi
 }
 
 /* ---- effects ---- */
-
-static const hci_effect *effect_in(const hci_effects *list, const char *name)
-{
-    for (size_t k = 0; k < list->count; ++k)
-        if (strcmp(list->effect[k].type->name, name) == 0) return &list->effect[k];
-    return NULL;
-}
 
 static const hci_effect_term *term_in(const hci_effect *effect, const hci_effect_term *as)
 {
@@ -287,6 +388,12 @@ static bool is_ambiguous(const hci_diagnosis *d, const char *effect)
     return false;
 }
 
+/* Whether its values stand on top of the declared cogging torque, and are others without that. */
+static bool is_beside_cogging(const hci_effect_type *type)
+{
+    return strcmp(type->name, "cogging") == 0 || strcmp(type->name, "mechanical_order") == 0;
+}
+
 static hci_status effect_compare(const last_diagnosis *last, const hci_diagnosis *d, const char *name,
                                  hci_again *a, hci_note *note)
 {
@@ -296,7 +403,7 @@ static hci_status effect_compare(const last_diagnosis *last, const hci_diagnosis
     if (status || (!then && !now && !x.was_ambiguous && !x.is_ambiguous)) return status;
     if (a->effects == HCI_MOST_FINDINGS) return HCI_OK;
     x.change = now && !then ? HCI_AGAIN_CAME : !now ? HCI_AGAIN_LEFT : HCI_AGAIN_STAYS;
-    if (then && now) {
+    if (then && now && !(d->without_cogging && is_beside_cogging(then->type))) {
         x.deviations = -1.0;
         terms_compare(then, now, &x);
         if (x.deviations < 0.0) x.deviations = NAN;
@@ -321,10 +428,11 @@ hci_status hci_again_find(const hci_again_question *q, hci_diagnosis *d, hci_aga
     last_diagnosis last;
     memset(a, 0, sizeof *a);
     a->recordings_before = q->recordings_before;
+    a->without_cogging = d->without_cogging;
     hci_status status = last_read(q->folder, &last, note);
     if (!status) status = hci_solved_currents_find(q->folder, &a->solved, note);
-    if (!status) status = new_runs_fill(q, &last, d, a, note);
     if (!status) status = effects_fill(&last, d, a, note);
+    if (!status) status = new_runs_fill(q, &last, d, a, note);
     last_release(&last);
     if (status) hci_again_release(a);
     d->again = status ? NULL : a;

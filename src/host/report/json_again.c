@@ -10,6 +10,10 @@ static void put_played(hci_json *json, const hci_played *p)
     hci_json_number(json, "currents_rotation_error_rad", is_known ? p->rotation.error_rad : (double)NAN);
     hci_json_number(json, "currents_gain", is_known ? p->rotation.gain : (double)NAN);
     hci_json_number(json, "currents_left", is_known ? p->rotation.left : (double)NAN);
+    hci_json_number(json, "harmonics", is_known ? p->beside.harmonics : (double)NAN);
+    hci_json_number(json, "harmonics_error", is_known ? p->beside.harmonics_error : (double)NAN);
+    hci_json_number(json, "corrected", is_known ? p->beside.corrected : (double)NAN);
+    hci_json_number(json, "corrected_error", is_known ? p->beside.corrected_error : (double)NAN);
     hci_json_number(json, "ripple_peak_to_peak_Nm", p->ripple_Nm);
     hci_json_number(json, "ripple_error_Nm", p->ripple_error_Nm);
     hci_json_number(json, "ripple_order", p->ripple_order);
@@ -38,6 +42,8 @@ static void put_effect(hci_json *json, const hci_again_effect *e)
     hci_json_object(json, NULL);
     hci_json_text(json, "effect", e->effect);
     hci_json_text(json, "change", hci_again_change_name(e->change));
+    if (e->change == HCI_AGAIN_LEFT)
+        hci_json_text(json, "new_recordings_speak", hci_again_speaks_name(e->speaks));
     hci_json_bool(json, "was_ambiguous", e->was_ambiguous);
     hci_json_bool(json, "is_ambiguous", e->is_ambiguous);
     hci_json_number(json, "standard_errors", e->deviations);

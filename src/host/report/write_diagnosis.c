@@ -135,25 +135,27 @@ static hci_status folder_within(const char *folder, const char *name, char path[
 }
 
 /* A folder within that of the results, with the tables of the machine as they are. */
-static hci_status tables_write(const char *machine_folder, const char *folder, const char *name,
-                               hci_output **out, hci_note *note)
+static hci_status tables_write(const hci_diagnosis *d, const char *machine_folder, const char *folder,
+                               const char *name, hci_output **out, hci_note *note)
 {
-    static const char *const TABLES[] = {"machine.csv", "back_emf.csv", "cogging.csv", "inductance.csv"};
+    static const char *const TABLES[] = {"machine.csv", "back_emf.csv", "inductance.csv", "cogging.csv"};
     char path[PATH_SIZE];
     hci_status status = folder_within(folder, name, path, note);
     if (!status) status = hci_output_open(path, out, note);
-    for (size_t k = 0; k < sizeof TABLES / sizeof *TABLES && !status; ++k)
+    for (size_t k = 0; k < 3 && !status; ++k)
         status = table_copy(*out, machine_folder, TABLES[k], note);
-    return status;
+    if (status) return status;
+    return d->without_cogging ? hci_output_without(*out, TABLES[3], note)
+                              : table_copy(*out, machine_folder, TABLES[3], note);
 }
 
 /* What the diagnosis started from, for the next one: the machine, and where the recordings are. */
-static hci_status declared_write(const char *machine_folder, const hci_runs *runs, const char *folder,
-                                 hci_output **out, hci_note *note)
+static hci_status declared_write(const hci_diagnosis *d, const char *machine_folder, const hci_runs *runs,
+                                 const char *folder, hci_output **out, hci_note *note)
 {
     char path[PATH_SIZE];
     hci_status status = folder_within(folder, "declared", path, note);
-    if (!status) status = tables_write(machine_folder, folder, "declared", out, note);
+    if (!status) status = tables_write(d, machine_folder, folder, "declared", out, note);
     if (!status) status = table_copy(*out, machine_folder, "effects.csv", note);
     return status ? status : hci_runs_write(*out, runs, path, note);
 }
@@ -161,7 +163,7 @@ static hci_status declared_write(const char *machine_folder, const hci_runs *run
 static hci_status machine_write(const hci_diagnosis *d, const char *machine_folder, const char *folder,
                                 hci_output **out, hci_note *note)
 {
-    hci_status status = tables_write(machine_folder, folder, "machine", out, note);
+    hci_status status = tables_write(d, machine_folder, folder, "machine", out, note);
     if (!status) status = hci_uncertainty_write(*out, &d->uncertainty, note);
     if (status) return status;
     if (d->effects.list.count > 0) return hci_effects_write(*out, &d->effects.list, note);
@@ -205,7 +207,7 @@ hci_status hci_diagnosis_write(const hci_diagnosis *d, const hci_new_currents *c
     const hci_resolution *resolution = currents ? currents->resolution : NULL;
     hci_status status = hci_output_open(folder, &set[FOLDER], note);
     if (!status) status = results_write(set[FOLDER], d, resolution, runs, machine_folder, note);
-    if (!status) status = declared_write(machine_folder, runs, folder, &set[DECLARED], note);
+    if (!status) status = declared_write(d, machine_folder, runs, folder, &set[DECLARED], note);
     if (!status) status = machine_write(d, machine_folder, folder, &set[MACHINE], note);
     if (!status) status = solution_write(currents, machine_folder, folder, &set[SOLUTION], note);
     const size_t first = currents ? SOLUTION : DECLARED;

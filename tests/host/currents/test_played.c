@@ -14,6 +14,7 @@ static double theta[COUNT], current[3 * COUNT], torque[COUNT];
 static hci_wave wave[3];
 static hci_solved_currents solved;
 static hci_run run;
+static const hci_effects *effects;
 
 void setUp(void)
 {
@@ -26,6 +27,7 @@ void setUp(void)
     strcpy(solved.machine, "machine");
     solved.table = (hci_currents){.wave = wave, .count = 3};
     solved.promised_Nm = 0.05;
+    effects = NULL;
     run = (hci_run){.name = "log",
                     .count = COUNT,
                     .theta_m_rad = theta,
@@ -55,7 +57,7 @@ static hci_played judge(void)
 {
     hci_played p;
     hci_note note = {{0}};
-    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_played_judge(&solved, &run, PAIRS, &p, &note), note.text);
+    TEST_ASSERT_EQUAL_MESSAGE(HCI_OK, hci_played_judge(&solved, &run, PAIRS, effects, &p, &note), note.text);
     return p;
 }
 
@@ -171,9 +173,85 @@ static void test_the_least_order(void)
     TEST_ASSERT_EQUAL_INT(HCI_PROMISE_NOT_JUDGED, judge().promise);
 }
 
+/* A sine beside the table that is another one in each direction: three turns there and three back. */
+static void add_load(double forward_A, double back_A)
+{
+    static double speed[COUNT];
+    run.speed_rad_per_s = speed;
+    for (size_t k = 0; k < run.count; ++k) {
+        const bool back = k >= run.count / 2;
+        double load[3];
+        const hci_wave sine = hci_wave_polar(1.0, 1, back ? back_A : forward_A, 0.4);
+        speed[k] = back ? -3.0 : 3.0;
+        hci_waves_at(&sine, 1, PAIRS * theta[k], load);
+        for (size_t s = 0; s < 3; ++s)
+            current[3 * k + s] += load[s];
+    }
+}
+
+static void test_a_load_beside_the_table(void)
+{
+    static const double LOAD_A[][2] = {{2.0, -2.0}, {3.0, 3.0}, {6.0, 1.0}, {-5.0, -6.0}};
+    for (size_t k = 0; k < sizeof LOAD_A / sizeof *LOAD_A; ++k) {
+        record(0.0, 1.0, 3, 0.01, 0.002);
+        add_load(LOAD_A[k][0], LOAD_A[k][1]);
+        const hci_played p = judge();
+        TEST_ASSERT_EQUAL_INT(HCI_PLAYED_BESIDE, p.currents);
+        TEST_ASSERT_EQUAL_INT(HCI_PROMISE_NOT_JUDGED, p.promise);
+        TEST_ASSERT_FALSE(hci_played_is_bad(&p));
+        TEST_ASSERT_DOUBLE_WITHIN(3.0 * p.beside.harmonics_error, 1.0, p.beside.harmonics);
+        TEST_ASSERT_DOUBLE_WITHIN(0.01, sqrt(0.5 * (pow(LOAD_A[k][0], 2.0) + pow(LOAD_A[k][1], 2.0))),
+                                  p.beside.beside_A);
+        says(&p, "the table, and what a control adds", true);
+        run.torque_source = HCI_TORQUE_HOLDING;
+        const hci_played held = judge();
+        run.torque_source = HCI_TORQUE_MEASURED;
+        says(&held, "which of both, the run does not tell", true);
+    }
+}
+
+/* A load beside a sine, or beside a table that is turned, is no table. */
+static void test_a_load_beside_others(void)
+{
+    record(0.0, 1.0, 1, 0.01, 0.002);
+    add_load(2.0, -2.0);
+    TEST_ASSERT_EQUAL_INT(HCI_PLAYED_OTHERS, judge().currents);
+    record(0.3, 1.0, 3, 0.01, 0.002);
+    add_load(0.2, 0.2);
+    TEST_ASSERT_EQUAL_INT(HCI_PLAYED_TURNED, judge().currents);
+}
+
+/* A sensor that reads 4 % too much in phase b: the drive divides by that, or does not. */
+static void test_sensors_that_were_not_corrected(void)
+{
+    const hci_effect_type *gain = hci_effect_type_find("current_gain");
+    const hci_effect_term term = {1, 0.0, 0.04, 1e-4};
+    const hci_effect effect = {gain, &term, 1};
+    const hci_effects list = {&effect, 1};
+    effects = &list;
+    run.has_sum = true;
+    record(0.0, 1.0, 3, 0.04, 0.002);
+    hci_played p = judge();
+    TEST_ASSERT_EQUAL_INT(HCI_PLAYED_AS_SOLVED, p.currents);
+    TEST_ASSERT_EQUAL_INT(HCI_PROMISE_UNCORRECTED, p.promise);
+    TEST_ASSERT_TRUE(hci_played_is_bad(&p));
+    TEST_ASSERT_DOUBLE_WITHIN(4.0 * p.beside.corrected_error + 0.01, 0.0, p.beside.corrected);
+    says(&p, "correct them and record again", true);
+    for (size_t k = 0; k < run.count; ++k)
+        current[3 * k + 1] *= 1.04;
+    p = judge();
+    TEST_ASSERT_EQUAL_INT(HCI_PROMISE_NOT_KEPT, p.promise);
+    TEST_ASSERT_DOUBLE_WITHIN(4.0 * p.beside.corrected_error + 0.01, 1.0, p.beside.corrected);
+    record(0.0, 1.0, 3, 0.01, 0.002);
+    TEST_ASSERT_EQUAL_INT(HCI_PROMISE_KEPT, judge().promise); /* smooth all the same */
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_a_load_beside_the_table);
+    RUN_TEST(test_a_load_beside_others);
+    RUN_TEST(test_sensors_that_were_not_corrected);
     RUN_TEST(test_ripples);
     RUN_TEST(test_names_of_the_folder);
     RUN_TEST(test_other_currents);

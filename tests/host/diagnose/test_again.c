@@ -148,6 +148,7 @@ static void test_what_new_recordings_contradict(void)
     next_round(4);
     TEST_ASSERT_DOUBLE_WITHIN(0.02 * 0.1, 0.1, fabs(again.run[0].last_mean_Nm));
     TEST_ASSERT_EQUAL_INT(HCI_AGAIN_LEFT, change_of("cogging")->change);
+    TEST_ASSERT_EQUAL_INT(HCI_AGAIN_AGAINST, change_of("cogging")->speaks);
     TEST_ASSERT_EQUAL_INT(HCI_AGAIN_CHANGED, change_of("current_offset")->change);
     TEST_ASSERT_DOUBLE_WITHIN(1.5, 5.0, change_of("current_offset")->deviations);
     TEST_ASSERT_EQUAL_INT(HCI_AGAIN_CAME, change_of("friction")->change);

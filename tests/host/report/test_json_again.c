@@ -43,9 +43,11 @@ void setUp(void)
     a.bound_Nm = 0.5;
     a.recordings_before = 7;
     a.effects = EFFECTS;
-    a.effect[0] = (hci_again_effect){"cogging", HCI_AGAIN_STAYS, false, false, 0.5, "1 then 2"};
-    a.effect[1] = (hci_again_effect){"friction", HCI_AGAIN_LEFT, true, false, NAN, ""};
-    a.effect[2] = (hci_again_effect){"current_offset", HCI_AGAIN_CAME, false, true, 4.0, "x"};
+    a.effect[0] =
+        (hci_again_effect){"cogging", HCI_AGAIN_STAYS, HCI_AGAIN_SILENT, false, false, 0.5, "1 then 2"};
+    a.effect[1] = (hci_again_effect){"friction", HCI_AGAIN_LEFT, HCI_AGAIN_AGAINST, true, false, NAN, ""};
+    a.effect[2] =
+        (hci_again_effect){"current_offset", HCI_AGAIN_CAME, HCI_AGAIN_SILENT, false, true, 4.0, "x"};
     hci_json_begin(&json);
     hci_again_put(&json, &a);
     char *text = hci_json_end(&json);
@@ -120,6 +122,11 @@ static void test_each_effect(void)
         check_text(e, "effect", EFFECT[k]);
         check_text(e, "change", CHANGE[k]);
         check_text(e, "value", VALUE[k]);
+        const cJSON *speaks = cJSON_GetObjectItem(e, "new_recordings_speak");
+        if (k == 1)
+            TEST_ASSERT_EQUAL_STRING("against", cJSON_GetStringValue(speaks));
+        else
+            TEST_ASSERT_NULL(speaks);
         check_number(e, "standard_errors", deviations[k]);
         TEST_ASSERT_EQUAL(k == 1, cJSON_IsTrue(cJSON_GetObjectItem(e, "was_ambiguous")));
         TEST_ASSERT_EQUAL(k == 2, cJSON_IsTrue(cJSON_GetObjectItem(e, "is_ambiguous")));

@@ -38,10 +38,21 @@ typedef enum {
 /* In a word: stays, changed, left, came; a static string. */
 const char *hci_again_change_name(hci_again_change change);
 
+/* What the new recordings alone say of an effect that is not in the machine any more. */
+typedef enum {
+    HCI_AGAIN_SILENT, /* the machine of last time describes them as well without it, or it was not asked */
+    HCI_AGAIN_FOR,    /* it describes them better with it */
+    HCI_AGAIN_AGAINST /* it describes them better without it: they contradict it */
+} hci_again_speaks;
+
+/* In a word: silent, for, against; a static string. */
+const char *hci_again_speaks_name(hci_again_speaks speaks);
+
 /* An effect of the last diagnosis or of this one. */
 typedef struct {
     const char *effect;               /* its name */
     hci_again_change change;          /* in a word */
+    hci_again_speaks speaks;          /* of one that left: in a word */
     bool was_ambiguous, is_ambiguous; /* with another one: last time, now */
     double deviations;               /* largest change of a value, in standard errors; NAN: none is in both */
     char words[HCI_DETAIL_SIZE / 2]; /* that value, then and now; or "" */
@@ -56,6 +67,7 @@ struct hci_again {
     hci_again_effect effect[HCI_MOST_FINDINGS];              /* in either machine, or ambiguous in one */
     size_t effects;                                          /* entries of effect */
     size_t recordings_before;                                /* of the last diagnosis */
+    bool without_cogging; /* the declared cogging torque of last time is left to all recordings together */
     hci_solved_currents solved; /* for the machine of last time, and what was promised of them */
 };
 

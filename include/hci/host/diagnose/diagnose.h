@@ -229,6 +229,8 @@ typedef struct {
                                     * torques are found by; 0: one tells it */
     size_t unknown_loads;  /* slow turns to be fitted that work against a load which nobody knows: their means
                             * say  nothing */
+    bool without_cogging;  /* the effects are those of the machine without the cogging torque of its folder,
+                            * of which they have all */
     bool nothing_measured; /* no run to be fitted has an angle and a torque: nothing can be said */
 } hci_diagnosis;
 
@@ -249,6 +251,14 @@ bool hci_finding_is_part(const hci_diagnosis *diagnosis, const hci_finding *find
  * as the diagnosis. */
 hci_status hci_diagnose(const hci_machine_data *machine, const hci_effects *declared, const hci_runs *runs,
                         const hci_diagnose_options *options, hci_diagnosis *diagnosis, hci_note *note);
+
+/* Of further recordings, those of the last diagnosis among them. As hci_diagnose; where that does not explain
+ * them, slow turns without a torque sensor are among them and the machine has a cogging torque, the search is
+ * made once more without that, which such a turn may have shown with errors of its sensors in it, and taken
+ * if it explains them: diagnosis->without_cogging. */
+hci_status hci_diagnose_further(const hci_machine_data *machine, const hci_effects *declared,
+                                const hci_runs *runs, const hci_diagnose_options *options,
+                                hci_diagnosis *diagnosis, hci_note *note);
 
 /* An effect as people call it, "reluctance torque" of `reluctance`, "what is not known" of `unknown`; a
  * static string, or `effect` itself where it names none. */

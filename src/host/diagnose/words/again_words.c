@@ -15,6 +15,12 @@ const char *hci_again_change_name(hci_again_change change)
     return NAMES[change];
 }
 
+const char *hci_again_speaks_name(hci_again_speaks speaks)
+{
+    static const char *const NAMES[] = {"silent", "for", "against"};
+    return NAMES[speaks];
+}
+
 static bool has_kept_promise(const hci_again *a)
 {
     for (size_t k = 0; k < a->runs && a->solved.folder[0]; ++k)
@@ -40,13 +46,37 @@ static void say_prediction(const hci_words *w, const hci_again *a)
                           : "");
 }
 
+/* Whether the new recordings tell the machine of last time from that which is fitted to all of them. */
+static bool is_same(const hci_again *a)
+{
+    return fabs(a->now_Nm - a->last_Nm) <= SAME * a->last_Nm;
+}
+
 static void say_now(const hci_words *w, const hci_again *a)
 {
-    const bool same = fabs(a->now_Nm - a->last_Nm) <= SAME * a->last_Nm;
+    const bool same = is_same(a);
     hci_words_say(w, " Fitted to all recordings, the machine is off by %.3g N·m there: %s.", a->now_Nm,
                   same                     ? "no change"
                   : a->now_Nm < a->last_Nm ? "better"
                                            : "worse");
+}
+
+/* What left is contradicted where the new recordings alone are described better without it, and not where it
+ * is only the list of all of them that was judged otherwise. */
+static void say_left(const hci_words *w, const hci_again_effect *e)
+{
+    if (e->speaks == HCI_AGAIN_AGAINST)
+        hci_words_say(w, " %s is contradicted and left.", e->effect);
+    else if (e->speaks == HCI_AGAIN_FOR)
+        hci_words_say(w,
+                      " %s is not in the machine of all recordings, but the machine of last time describes "
+                      "the new ones better with it: it is not contradicted.",
+                      e->effect);
+    else
+        hci_words_say(w,
+                      " %s is not in the machine of all recordings; the new ones by themselves speak neither "
+                      "for nor against it.",
+                      e->effect);
 }
 
 static void say_effect(const hci_words *w, const hci_again_effect *e)
@@ -57,11 +87,23 @@ static void say_effect(const hci_words *w, const hci_again_effect *e)
     else if (!e->was_ambiguous && e->is_ambiguous)
         hci_words_say(w, " %s is ambiguous now.", e->effect);
     else if (e->change == HCI_AGAIN_LEFT && !e->is_ambiguous)
-        hci_words_say(w, " %s is contradicted and left.", e->effect);
+        say_left(w, e);
     else if (e->change == HCI_AGAIN_CAME)
         hci_words_say(w, " %s came.", e->effect);
     if (e->change == HCI_AGAIN_CHANGED)
         hci_words_say(w, " %s has changed by %.3g standard errors: %s.", e->effect, e->deviations, e->words);
+}
+
+/* Values that together describe the new recordings as those of last time do are another description. */
+static void say_changes(const hci_words *w, const hci_again *a)
+{
+    size_t changed = 0;
+    for (size_t k = 0; k < a->effects; ++k)
+        changed += a->effect[k].change == HCI_AGAIN_CHANGED;
+    if (changed > 0 && a->runs > 0 && is_same(a))
+        hci_words_say(w, " The new recordings do not contradict what has changed: the machine of last time "
+                         "describes them as well, so that these values together are another description of "
+                         "the same.");
 }
 
 /* Of runs that have not the currents that were solved the first alone: rounds of diagnosis have many. */
@@ -98,10 +140,16 @@ void hci_again_words(const hci_again *a, char *text, size_t size)
         say_now(&w, a);
         say_played(&w, a);
     }
+    if (a->without_cogging)
+        hci_words_say(&w,
+                      " The cogging torque that the last diagnosis started from was of one slow turn, with "
+                      "what its sensors made of it: here it is found by all recordings together, and not "
+                      "compared with that of last time.");
     for (size_t k = 0; k < a->effects; ++k) {
         say_effect(&w, &a->effect[k]);
         stay += a->effect[k].change == HCI_AGAIN_STAYS && !a->effect[k].was_ambiguous;
     }
+    say_changes(&w, a);
     if (stay > 0)
         hci_words_say(&w, " %zu effect%s within %s error%s.", stay, stay == 1 ? " stays" : "s stay",
                       stay == 1 ? "its" : "their", stay == 1 ? "" : "s");

@@ -112,7 +112,9 @@ static void test_what_became_of_an_effect(void)
     TEST_ASSERT_EQUAL_STRING(" cogging is ambiguous now.", of_effect(HCI_AGAIN_LEFT, false, true));
     TEST_ASSERT_EQUAL_STRING(" cogging is ambiguous now. 1 effect stays within its error.",
                              of_effect(HCI_AGAIN_STAYS, false, true));
-    TEST_ASSERT_EQUAL_STRING(" cogging is contradicted and left.", of_effect(HCI_AGAIN_LEFT, false, false));
+    TEST_ASSERT_EQUAL_STRING(" cogging is not in the machine of all recordings; the new ones by themselves "
+                             "speak neither for nor against it.",
+                             of_effect(HCI_AGAIN_LEFT, false, false));
     TEST_ASSERT_EQUAL_STRING("", of_effect(HCI_AGAIN_LEFT, true, true));
     TEST_ASSERT_EQUAL_STRING(" cogging came.", of_effect(HCI_AGAIN_CAME, false, false));
     TEST_ASSERT_EQUAL_STRING(" cogging came.", of_effect(HCI_AGAIN_CAME, true, true));
@@ -123,6 +125,40 @@ static void test_what_became_of_an_effect(void)
         "0.1 then, 0.2 now.",
         of_effect(HCI_AGAIN_CHANGED, true, false));
     TEST_ASSERT_EQUAL_STRING("", of_effect(HCI_AGAIN_STAYS, true, true));
+}
+
+/* Only what the new recordings alone speak against is contradicted. */
+static void test_what_left(void)
+{
+    (void)of_effect(HCI_AGAIN_LEFT, false, false);
+    a.effect[0].speaks = HCI_AGAIN_AGAINST;
+    TEST_ASSERT_EQUAL_STRING(" cogging is contradicted and left.", words());
+    a.effect[0].speaks = HCI_AGAIN_FOR;
+    TEST_ASSERT_TRUE(says("describes the new ones better with it: it is not contradicted."));
+    TEST_ASSERT_EQUAL_STRING("against", hci_again_speaks_name(HCI_AGAIN_AGAINST));
+    TEST_ASSERT_EQUAL_STRING("for", hci_again_speaks_name(HCI_AGAIN_FOR));
+    TEST_ASSERT_EQUAL_STRING("silent", hci_again_speaks_name(HCI_AGAIN_SILENT));
+}
+
+/* Of values that describe the new recordings no better. */
+static void test_another_description(void)
+{
+    (void)of_effect(HCI_AGAIN_CHANGED, false, false);
+    a.runs = 1;
+    a.now_Nm = 0.199;
+    TEST_ASSERT_TRUE(says("has changed by 4.25") && says("another description of the same."));
+    a.now_Nm = 0.1;
+    TEST_ASSERT_FALSE(says("another description"));
+    a.now_Nm = 0.199;
+    a.effect[0].change = HCI_AGAIN_STAYS;
+    TEST_ASSERT_FALSE(says("another description"));
+}
+
+static void test_cogging_that_is_found_afresh(void)
+{
+    TEST_ASSERT_FALSE(says("not compared"));
+    a.without_cogging = true;
+    TEST_ASSERT_TRUE(says("found by all recordings together, and not compared with that of last time."));
 }
 
 static void test_effects_that_stay(void)
@@ -192,6 +228,9 @@ int main(void)
     RUN_TEST(test_the_bound);
     RUN_TEST(test_better_or_worse);
     RUN_TEST(test_what_became_of_an_effect);
+    RUN_TEST(test_what_left);
+    RUN_TEST(test_another_description);
+    RUN_TEST(test_cogging_that_is_found_afresh);
     RUN_TEST(test_effects_that_stay);
     RUN_TEST(test_names_of_changes);
     RUN_TEST(test_runs_with_other_currents);
