@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "host/base/memory.h"
+#include "host/diagnose/attribute/attribute.h"
 #include "host/diagnose/conclude.h"
 #include "host/diagnose/fill_diagnosis.h"
 #include "host/diagnose/fit/dataset.h"
@@ -13,7 +14,6 @@
 #include "host/diagnose/odd_run.h"
 #include "host/diagnose/open_voltage.h"
 #include "host/diagnose/origin.h"
-#include "host/diagnose/attribute/attribute.h"
 #include "host/machine/torque_constant.h"
 
 #define RESOLUTION 5e-4 /* of the largest rms torque */
@@ -263,24 +263,31 @@ static hci_status confirm(const task *t, const hci_diagnosis *d, hci_odd_run *od
     return status;
 }
 
-/* Of the others, where one disagrees; *certain: it does. */
-static hci_status diagnose_others(const task *t, hci_odd_run *odd, bool *certain, hci_diagnosis *d,
-                                  hci_note *note)
+/* Of all runs but one. */
+static hci_status diagnose_without(const task *t, const char *file, hci_diagnosis *d, hci_note *note)
 {
     hci_runs rest;
     size_t index = 0;
     task others = *t;
     others.runs = &rest;
     others.dataset = NULL;
-    hci_status status = take_out(t->runs, odd->file, &rest, &index, note);
+    hci_status status = take_out(t->runs, file, &rest, &index, note);
     if (!status) status = diagnose_all(&others, d, note);
-    if (!status) status = confirm(t, d, odd, certain, note);
-    if (!status && *certain) d->odd = *odd;
     for (size_t k = 0; !status && k < d->lines; ++k)
         d->line[k].run += d->line[k].run >= index;
-    if (status || !*certain) hci_diagnosis_release(d);
     hci_memory_free(rest.run);
     hci_memory_free(rest.role);
+    return status;
+}
+
+/* Of the others, where one disagrees; *certain: it does. */
+static hci_status diagnose_others(const task *t, hci_odd_run *odd, bool *certain, hci_diagnosis *d,
+                                  hci_note *note)
+{
+    hci_status status = diagnose_without(t, odd->file, d, note);
+    if (!status) status = confirm(t, d, odd, certain, note);
+    if (!status && *certain) d->odd = *odd;
+    if (status || !*certain) hci_diagnosis_release(d);
     return status;
 }
 
@@ -306,14 +313,74 @@ static hci_status suspicion_try(const task *t, hci_odd_run *odd, hci_diagnosis *
     return status;
 }
 
+/* ---- one run whose mean is off ---- */
+
+static bool explains(const hci_diagnosis *d)
+{
+    return d->search == HCI_WORK_COMPLETE && !d->means_open && !d->odd.file &&
+           (d->verdict == HCI_DIAGNOSIS_COMPLETE || d->verdict == HCI_DIAGNOSIS_EXPLAINED);
+}
+
+/* The one of these runs without which the others are explained, and how; NULL: none, or it is not decisive.
+ */
+static hci_status explained_without(const task *t, const char *const file[HCI_ODD_MEANS], size_t count,
+                                    const char **odd, hci_diagnosis *others, hci_note *note)
+{
+    hci_status status = HCI_OK;
+    size_t explained = 0;
+    *odd = NULL;
+    for (size_t k = 0; k < count && explained < 2 && !status; ++k) {
+        hci_diagnosis d = {0};
+        status = diagnose_without(t, file[k], &d, note);
+        const bool is_it = !status && explains(&d);
+        if (is_it && explained == 0) {
+            *others = d;
+            *odd = file[k];
+        } else {
+            hci_diagnosis_release(&d);
+        }
+        explained += is_it;
+    }
+    if (explained != 1 || status) *odd = NULL;
+    if (!*odd && explained > 0) hci_diagnosis_release(others);
+    return status;
+}
+
+/* Where the means of all runs are not explained: those of all but one may be, which is off by a constant. */
+static hci_status odd_mean_try(const task *t, hci_diagnosis *d, hci_note *note)
+{
+    const char *file[HCI_ODD_MEANS], *name;
+    hci_diagnosis others = {0};
+    hci_odd_run odd = {0};
+    if (d->verdict < HCI_DIAGNOSIS_PARTLY || d->odd.file || d->slip || d->search != HCI_WORK_COMPLETE)
+        return HCI_OK;
+    const size_t count = hci_odd_means_rank(t->dataset, t->runs, d, file);
+    hci_status status = explained_without(t, file, count, &name, &others, note);
+    if (!status && name)
+        status = hci_odd_mean_judge(t->machine, t->dataset, t->runs, name, &others, &odd, note);
+    if (status || !odd.file) {
+        hci_diagnosis_release(&others);
+        return status;
+    }
+    hci_diagnosis_release(d);
+    *d = others;
+    d->odd = odd;
+    return HCI_OK;
+}
+
 static hci_status diagnose_any(const task *t, hci_diagnosis *d, hci_note *note)
 {
     hci_odd_run odd;
     bool certain = false;
     hci_status status = hci_odd_run_find(t->machine, t->dataset, t->runs, &odd, &certain, note);
     if (status) return status;
-    if (!odd.file) return diagnose_all(t, d, note);
-    return certain ? diagnose_others(t, &odd, &certain, d, note) : suspicion_try(t, &odd, d, note);
+    if (odd.file)
+        status = certain ? diagnose_others(t, &odd, &certain, d, note) : suspicion_try(t, &odd, d, note);
+    else
+        status = diagnose_all(t, d, note);
+    if (!status) status = odd_mean_try(t, d, note);
+    if (status > HCI_NOT_REACHED) hci_diagnosis_release(d);
+    return status;
 }
 
 /* Of all runs, or of all but one that disagrees. */

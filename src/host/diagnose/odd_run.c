@@ -3,9 +3,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "hci/math/dense.h"
 #include "host/base/memory.h"
 #include "host/diagnose/fit/dataset.h"
 #include "host/diagnose/odd_slip.h"
+#include "host/diagnose/reading/predicted_reading.h"
 #include "host/diagnose/run_errors.h"
 
 #define RESOLUTION 2e-3 /* of the largest rms torque: the same where there is no noise */
@@ -206,4 +208,189 @@ void hci_suspect_release(hci_suspect *s)
 {
     hci_candidates_release(&s->shown);
     hci_dataset_release(&s->dataset);
+}
+
+/* ---- whose mean alone is off ---- */
+
+/* A zero, a friction, and a torque of the current that saturates. */
+enum { MEAN_TERMS = 4 };
+
+#define RIDGE     1e-9 /* of the diagonal, for terms that the runs do not tell apart */
+#define NEARER    0.3  /* of what all runs leave: a run without which it is less may be it */
+#define QUIET     1.25 /* of its noise: the ripple of a run that is off by a constant alone */
+#define CERTAINLY 5.0  /* standard errors of that constant */
+
+static void mean_row(const hci_run_statistics *x, double row[MEAN_TERMS])
+{
+    row[0] = 1.0;
+    row[1] = (x->mean_speed_rad_per_s > 0.0) - (x->mean_speed_rad_per_s < 0.0);
+    row[2] = x->mean_iq_A;
+    row[3] = x->mean_iq_A * x->current_A * x->current_A;
+}
+
+static bool has_mean(const hci_runs *runs, const hci_diagnosis *d, size_t k)
+{
+    const size_t run = run_of(runs, &d->run[k]);
+    return run < runs->count && d->run[k].role == HCI_ROLE_FIT && d->run[k].source == HCI_TORQUE_MEASURED;
+}
+
+/* The normal equations of the mean errors of all runs but one, and their solution in x. */
+static bool means_fit(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d, size_t without,
+                      double x[MEAN_TERMS])
+{
+    double a[MEAN_TERMS * MEAN_TERMS] = {0.0}, row[MEAN_TERMS];
+    memset(x, 0, MEAN_TERMS * sizeof *x);
+    for (size_t k = 0; k < d->runs; ++k) {
+        if (k == without || !has_mean(runs, d, k)) continue;
+        mean_row(&b->samples.statistics[run_of(runs, &d->run[k])], row);
+        for (int i = 0; i < MEAN_TERMS; ++i) {
+            x[i] += row[i] * d->run[k].error_mean_before_Nm;
+            for (int j = 0; j < MEAN_TERMS; ++j)
+                a[i * MEAN_TERMS + j] += row[i] * row[j];
+        }
+    }
+    for (int i = 0; i < MEAN_TERMS; ++i)
+        a[i * MEAN_TERMS + i] += RIDGE * a[i * MEAN_TERMS + i] + RIDGE;
+    if (hci_cholesky_factor(MEAN_TERMS, a)) return false;
+    hci_cholesky_solve(MEAN_TERMS, a, x);
+    return true;
+}
+
+/* The rms that the law leaves of the means of all runs but one; INFINITY where so few tell nothing. */
+static double means_left(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d, size_t without)
+{
+    double x[MEAN_TERMS], row[MEAN_TERMS], sum = 0.0;
+    size_t count = 0;
+    if (!means_fit(b, runs, d, without, x)) return (double)INFINITY;
+    for (size_t k = 0; k < d->runs; ++k) {
+        if (k == without || !has_mean(runs, d, k)) continue;
+        double error = d->run[k].error_mean_before_Nm;
+        mean_row(&b->samples.statistics[run_of(runs, &d->run[k])], row);
+        for (int i = 0; i < MEAN_TERMS; ++i)
+            error -= row[i] * x[i];
+        sum += error * error;
+        ++count;
+    }
+    return count > MEAN_TERMS ? sqrt(sum / (double)(count - MEAN_TERMS)) : (double)INFINITY;
+}
+
+size_t hci_odd_means_rank(const hci_dataset *b, const hci_runs *runs, const hci_diagnosis *d,
+                          const char *file[HCI_ODD_MEANS])
+{
+    const double all_Nm = means_left(b, runs, d, d->runs);
+    double left_Nm[HCI_ODD_MEANS] = {INFINITY, INFINITY};
+    size_t count = 0;
+    for (size_t k = 0; k < d->runs; ++k) {
+        const double x_Nm = has_mean(runs, d, k) ? means_left(b, runs, d, k) : (double)INFINITY;
+        if (!(x_Nm < left_Nm[HCI_ODD_MEANS - 1])) continue;
+        size_t at = HCI_ODD_MEANS - 1;
+        for (; at > 0 && x_Nm < left_Nm[at - 1]; --at) {
+            left_Nm[at] = left_Nm[at - 1];
+            file[at] = file[at - 1];
+        }
+        left_Nm[at] = x_Nm;
+        file[at] = d->run[k].file;
+        count += count < HCI_ODD_MEANS;
+    }
+    return count > 0 && left_Nm[0] < NEARER * all_Nm ? count : 0;
+}
+
+/* What machines that the others allow make another of its mean, as a standard deviation; 0: none is known. */
+static hci_status mean_open(const hci_suspect *s, const hci_diagnosis *others, double *open_Nm,
+                            hci_note *note)
+{
+    const hci_regression *e = &s->dataset.regression;
+    const hci_uncertainty *u = &others->uncertainty;
+    hci_predicted_reading reading;
+    double count = 0.0, square = 0.0;
+    *open_Nm = 0.0;
+    if (u->machines == 0) return HCI_OK;
+    double *mean_Nm = hci_memory_new(u->machines, sizeof *mean_Nm);
+    if (!mean_Nm || !hci_predicted_reading_make(e, &u->effects.list, true, &reading)) {
+        hci_memory_free(mean_Nm);
+        return hci_note_memory(note, s->run.name, "what is left open of its mean");
+    }
+    for (const hci_segment *x = NULL; (x = hci_segment_next(e->samples, 0, x)) != NULL;) {
+        hci_predicted_reading_fill(e, &u->effects.list, x, &reading);
+        for (size_t j = 0; j < x->count; ++j) {
+            const double weight = e->samples->sample[x->first + j].count;
+            for (size_t t = 0; t < reading.terms; ++t)
+                for (size_t m = 0; m < u->machines; ++m)
+                    mean_Nm[m] +=
+                        weight * reading.by_value[j * reading.terms + t] * u->departure[t * u->machines + m];
+            count += weight;
+        }
+    }
+    for (size_t m = 0; m < u->machines; ++m)
+        square += pow(mean_Nm[m] / fmax(1.0, count), 2.0) / (double)u->machines;
+    *open_Nm = sqrt(square);
+    hci_predicted_reading_release(&reading);
+    hci_memory_free(mean_Nm);
+    return HCI_OK;
+}
+
+/* The means of the others are left by about as much as that of this run is uncertain. */
+static double others_mean_Nm(const hci_diagnosis *others)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < others->runs; ++k)
+        sum += pow(others->run[k].error_mean_after_Nm, 2.0) / (double)others->runs;
+    return sqrt(sum);
+}
+
+/* Whether the others tell all of its state but the speed. */
+static bool is_told_but_speed(const reach *r, hci_run_statistics y)
+{
+    const double scale = fabs(y.mean_speed_rad_per_s) > 0.0 ? r->speed / fabs(y.mean_speed_rad_per_s) : 0.0;
+    y.mean_speed_rad_per_s *= fmin(1.0, scale);
+    y.speed_deviation *= fmin(1.0, scale);
+    y.rms_acceleration = fmin(y.rms_acceleration, r->acceleration);
+    return r->speed > 0.0 && is_told(r, &y);
+}
+
+/* At a speed of its own whatever brakes may be in the mean, by a law that nobody knows; what drives is none.
+ */
+static bool is_certain(const reach *r, const hci_run_statistics *y, const hci_odd_run *odd)
+{
+    if (!odd->mean_is_untold)
+        return fabs(odd->mean_Nm) > CERTAINLY * hypot(odd->mean_error_Nm, odd->mean_open_Nm);
+    return is_told_but_speed(r, *y) && odd->mean_Nm * y->mean_speed_rad_per_s > 0.0 &&
+           fabs(odd->mean_Nm) > fmax(CERTAINLY * odd->mean_error_Nm, odd->mean_open_Nm);
+}
+
+static hci_odd_run constant_of(const hci_diagnosis *others, const hci_run_errors *e, double open_Nm,
+                               const reach *r, const hci_run_statistics *y)
+{
+    const hci_odd_run odd = {.file = e->file,
+                             .rms_Nm = e->rms_after_Nm,
+                             .others_Nm = others->rms_after_Nm,
+                             .mean_Nm = e->error_mean_after_Nm,
+                             .mean_error_Nm = others_mean_Nm(others),
+                             .mean_open_Nm = open_Nm,
+                             .mean_is_untold = !is_told(r, y)};
+    const bool quiet = e->ripple_after_Nm <= QUIET * e->noise_floor_Nm;
+    return quiet && is_certain(r, y, &odd) ? odd : (hci_odd_run){.file = NULL};
+}
+
+hci_status hci_odd_mean_judge(const hci_machine_data *machine, const hci_dataset *b, const hci_runs *runs,
+                              const char *file, const hci_diagnosis *others, hci_odd_run *odd, hci_note *note)
+{
+    hci_suspect s;
+    hci_diagnosis d = {0};
+    double open_Nm = 0.0;
+    size_t run = 0;
+    memset(odd, 0, sizeof *odd);
+    while (runs->run[run].name != file)
+        ++run;
+    hci_status status = hci_suspect_make(machine, b->regression.declared, runs, file, &s, note);
+    if (status) return status;
+    const hci_runs one = {.run = &s.run, .role = &s.role, .count = 1};
+    const reach r = reach_of(runs, b, run);
+    status = hci_run_errors_of(&s.dataset, &one, &others->effects.list, &d, note);
+    if (!status) status = mean_open(&s, others, &open_Nm, note);
+    if (!status && d.runs == 1) *odd = constant_of(others, d.run, open_Nm, &r, &b->samples.statistics[run]);
+    if (odd->file) odd->file = file;
+    hci_memory_free(d.run);
+    hci_suspect_release(&s);
+    return status;
 }

@@ -20,6 +20,23 @@ bool hci_odd_run_is_asked(const hci_runs *runs);
 hci_status hci_odd_run_find(const hci_machine_data *machine, hci_dataset *dataset, const hci_runs *runs,
                             hci_odd_run *odd, bool *certain, hci_note *note);
 
+/* Runs that are tried, where the means of all are not explained: if the others are without either of two, it
+ * is none of them. */
+enum { HCI_ODD_MEANS = 2 };
+
+/* Those without which a zero, a friction and a torque of the current come nearest to the mean errors of the
+ * others, best first. d: of all runs. file: out, belong to runs. Returns their number; 0 where there are too
+ * few or none makes much of a difference. O(runs²). */
+size_t hci_odd_means_rank(const hci_dataset *dataset, const hci_runs *runs, const hci_diagnosis *d,
+                          const char *file[HCI_ODD_MEANS]);
+
+/* Of a run without which one machine explains all others: whether it is off from that by a constant alone,
+ * that stands out of its error, and at a speed that no other has drives; then odd->file is set. dataset: of
+ * all runs. HCI_ERROR_MEMORY. O(samples of the run). */
+hci_status hci_odd_mean_judge(const hci_machine_data *machine, const hci_dataset *dataset,
+                              const hci_runs *runs, const char *file, const hci_diagnosis *others,
+                              hci_odd_run *odd, hci_note *note);
+
 /* A run that stands out, by itself. Start with {0}; it must not be moved. */
 typedef struct {
     hci_dataset dataset;

@@ -144,6 +144,10 @@ char *hci_diagnosis_json(const hci_diagnosis *d, const hci_resolution *r)
     hci_json_bool(&json, "does_not_repeat", d->wanders);
     hci_json_bool(&json, "magnetic_only", d->magnetic_only);
     hci_json_text(&json, "disagrees", d->odd.file ? d->odd.file : "");
+    const bool is_mean = fabs(d->odd.mean_Nm) > 0.0;
+    hci_json_number(&json, "disagrees_mean_Nm", is_mean ? d->odd.mean_Nm : (double)NAN);
+    hci_json_number(&json, "disagrees_mean_error_Nm", is_mean ? d->odd.mean_error_Nm : (double)NAN);
+    hci_json_number(&json, "disagrees_mean_open_Nm", is_mean ? d->odd.mean_open_Nm : (double)NAN);
     hci_json_text(&json, "left_out", d->disbelieved ? d->disbelieved : "");
     put_lists(&json, d);
     if (d->again) hci_again_put(&json, d->again);

@@ -247,6 +247,85 @@ static void test_a_suspicion_falls_where_the_others_tell_nothing(void)
     TEST_ASSERT_EQUAL_INT(HCI_ERROR_STOPPED, ask(ODD, &brake));
 }
 
+/* ---- whose mean is off ---- */
+
+static void add(hci_run *r, double constant_Nm)
+{
+    for (size_t k = 0; k < r->count; ++k)
+        r->torque_Nm[k] += constant_Nm;
+}
+
+/* And four more forward, so that each state is told by several. */
+static void record_more(double brake_Nm)
+{
+    record_all(brake_Nm);
+    for (int k = 0; k < 4; ++k)
+        record(SAMPLES, &(point){60.0 + 15.0 * k, k % 2 ? 8.0 : 2.0, 0.0, brake_Nm, 0.0});
+}
+
+/* Within four times the noise, so that it does not stand out by itself. */
+static void test_a_zero_that_is_another_one(void)
+{
+    record_more(0.1);
+    add(&run[6], 0.03);
+    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
+    TEST_ASSERT_EQUAL_STRING(run[6].name, diagnosis.odd.file);
+    TEST_ASSERT_DOUBLE_WITHIN(4.0 * hypot(diagnosis.odd.mean_error_Nm, diagnosis.odd.mean_open_Nm), 0.03,
+                              diagnosis.odd.mean_Nm);
+    TEST_ASSERT_TRUE(hypot(diagnosis.odd.mean_error_Nm, diagnosis.odd.mean_open_Nm) < 0.005);
+    TEST_ASSERT_FALSE(diagnosis.odd.mean_is_untold);
+    TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_EXPLAINED, diagnosis.verdict);
+    TEST_ASSERT_EQUAL_UINT64(RUNS + 4 - 1, diagnosis.runs);
+    hci_diagnosis_words(&diagnosis, text, sizeof text);
+    TEST_ASSERT_NOT_NULL_MESSAGE(
+        strstr(text,
+               "Only the mean torque of run_6.csv disagrees with the others: it is 0.0297 ± 0.0003 N·m "),
+        text);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(text, "above that of the machine that explains all of them"), text);
+}
+
+/* Of two runs at the largest current either one may be off, or the iron there saturates. */
+static void test_a_zero_that_is_one_of_two(void)
+{
+    record_all(0.1);
+    add(&run[ODD], 0.03);
+    (void)diagnose(NULL);
+    TEST_ASSERT_NULL(diagnosis.odd.file);
+}
+
+/* Without either of two no machine explains the others. */
+static void test_two_zeros_that_are_others(void)
+{
+    record_more(0.1);
+    add(&run[6], 0.03);
+    add(&run[1], -0.025);
+    (void)diagnose(NULL);
+    TEST_ASSERT_NULL(diagnosis.odd.file);
+}
+
+/* At a speed of its own what drives is no friction, and what brakes may be one. */
+static void test_a_zero_at_a_speed_of_its_own(void)
+{
+    for (int drives = 0; drives < 2; ++drives) {
+        runs.count = 0;
+        hci_diagnosis_release(&diagnosis);
+        for (size_t k = 0; k < RUNS; ++k)
+            rec_release(&run[k]);
+        record_all(0.1);
+        rec_release(&run[--runs.count]);
+        record(SAMPLES, &(point){140.0, 5.0, 0.0, drives ? 0.07 : 0.13, 0.0});
+        (void)diagnose(NULL);
+        TEST_ASSERT_EQUAL_MESSAGE(drives, diagnosis.odd.file == run[RUNS - 1].name,
+                                  drives ? "drives" : "brakes");
+        if (!drives) continue;
+        TEST_ASSERT_TRUE(diagnosis.odd.mean_is_untold);
+        TEST_ASSERT_DOUBLE_WITHIN(3.0 * hypot(diagnosis.odd.mean_error_Nm, diagnosis.odd.mean_open_Nm), 0.03,
+                                  diagnosis.odd.mean_Nm);
+        hci_diagnosis_words(&diagnosis, text, sizeof text);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(text, "which no other recording has"), text);
+    }
+}
+
 static void test_memory(void)
 {
     hci_status status = HCI_ERROR_MEMORY;
@@ -279,6 +358,10 @@ int main(void)
     RUN_TEST(test_recordings_that_agree);
     RUN_TEST(test_a_suspicion_falls_once_the_others_explain_it);
     RUN_TEST(test_a_suspicion_falls_where_the_others_tell_nothing);
+    RUN_TEST(test_a_zero_that_is_another_one);
+    RUN_TEST(test_a_zero_that_is_one_of_two);
+    RUN_TEST(test_two_zeros_that_are_others);
+    RUN_TEST(test_a_zero_at_a_speed_of_its_own);
     RUN_TEST(test_memory);
     return UNITY_END();
 }

@@ -106,12 +106,17 @@ enum { HCI_SLIP_SIZE = 128 };
 
 /* The one recording that disagrees with all others, and was taken out. */
 typedef struct {
-    const char *file;         /* belongs to the runs; NULL: there is none */
-    double rms_Nm, others_Nm; /* of measured less modelled torque: of this run, and of the others */
-    char slip[HCI_SLIP_SIZE]; /* what in that file would make most of it, in words; "": nothing simple */
-    bool mended;              /* and brings it down to its noise … */
-    double mended_Nm;         /* … to this rms error */
-    double angle_rad;         /* mechanical angle by which the run is ahead, where that is it */
+    const char *file;              /* belongs to the runs; NULL: there is none */
+    double rms_Nm, others_Nm;      /* of measured less modelled torque: of this run, and of the others */
+    char slip[HCI_SLIP_SIZE];      /* what in that file would make most of it, in words; "": nothing simple */
+    bool mended;                   /* and brings it down to its noise … */
+    double mended_Nm;              /* … to this rms error */
+    double angle_rad;              /* mechanical angle by which the run is ahead, where that is it */
+    double mean_Nm, mean_error_Nm; /* constant by which its torque is more than that of the machine that
+                                    * explains all others, where it is off by nothing else; and the standard
+                                    * error of that, by their means. 0: that is not it */
+    double mean_open_Nm; /* standard deviation of what the others leave open of its mean, such as friction */
+    bool mean_is_untold; /* no other run has its speed */
 } hci_odd_run;
 
 /* Bytes of a reason. */

@@ -632,11 +632,32 @@ static void say_verdict(const hci_words *w, const hci_diagnosis *d)
     say_unstable(w, d);
 }
 
+static void say_odd_mean(const hci_words *w, const hci_odd_run *o)
+{
+    hci_words_say(w,
+                  "Only the mean torque of %s disagrees with the others: it is %.3g ± %.1g N·m %s that of "
+                  "the machine that explains all of them, a constant, as of another zero of the torque "
+                  "sensor",
+                  o->file, fabs(o->mean_Nm),
+                  o->mean_is_untold ? o->mean_error_Nm : hypot(o->mean_error_Nm, o->mean_open_Nm),
+                  o->mean_Nm > 0.0 ? "above" : "below");
+    if (o->mean_is_untold)
+        hci_words_say(w,
+                      " (at least: what brakes more at its speed, which no other recording has, hides a part "
+                      "of it)");
+    hci_words_say(w, ". It was taken out: read the sensor without a torque before and after, and record it "
+                     "again. Of the others: ");
+}
+
 /* The one that disagrees comes first. */
 static void say_odd(const hci_words *w, const hci_diagnosis *d)
 {
     const hci_odd_run *o = &d->odd;
     if (!o->file) return;
+    if (fabs(o->mean_Nm) > 0.0) {
+        say_odd_mean(w, o);
+        return;
+    }
     hci_words_say(w, "Only %s disagrees with the others: its error is %.3g N·m rms, theirs %.3g N·m", o->file,
                   o->rms_Nm, o->others_Nm);
     if (o->mended)
