@@ -33,7 +33,7 @@ for list in list_map list_by_angle; do
         { seen[$1 "," $2] = 1; d = $3 - value[$1 "," $2]; if (FNR > 1 && (!(($1 "," $2) in value) || d * d > 1e-8 * $3 * $3 + 1e-18)) bad = 1 }
         END { for (k in value) if (!(k in seen)) bad = 1; exit bad }' "$work/of_files/machine/effects.csv" "$work/of_$list/machine/effects.csv"
     check "$list: not $(wc -l <"$work/of_files/errors.csv") lines of errors" [ "$(wc -l <"$work/of_$list/errors.csv")" = "$(wc -l <"$work/of_files/errors.csv")" ]
-    check "$list: no operating point named" grep -q '(i_d -6 A, i_q 3 A)' "$work/of_$list/errors.csv"
+    check "$list: no operating point named" grep -q '(i_d -6 A; i_q 3 A)' "$work/of_$list/errors.csv"
     check "$list: its points are not told" grep -q '10 operating points in one file, i_d -6 to 3 A and i_q -4 to 8 A' "$work/$list.err"
     check "$list: the file is not in the list once" [ "$(grep -c '\.csv,fit' "$work/of_$list/declared/runs.csv")" = 1 ]
 done

@@ -178,7 +178,7 @@ static void angle_unwrap(hci_run *run)
 static bool point_take(const torque_map *t, size_t point, hci_run *to)
 {
     char name[512];
-    snprintf(name, sizeof name, "%.400s (i_d %.4g A, i_q %.4g A)", t->run->name, t->i_A[point].d + 0.0,
+    snprintf(name, sizeof name, "%.400s (i_d %.4g A; i_q %.4g A)", t->run->name, t->i_A[point].d + 0.0,
              t->i_A[point].q + 0.0);
     *to = *t->run;
     to->count = t->row_count[point];

@@ -84,7 +84,7 @@ static void test_angles_or_currents_first(void)
 {
     map_add(true);
     is_split();
-    TEST_ASSERT_EQUAL_STRING("map.csv (i_d -5 A, i_q 10 A)", runs.run[1].name);
+    TEST_ASSERT_EQUAL_STRING("map.csv (i_d -5 A; i_q 10 A)", runs.run[1].name);
     TEST_ASSERT_NOT_NULL(
         strstr(runs.run[0].remark.text, "4 operating points in one file, i_d -5 to 0 A and i_q 0 to 20 A"));
     TEST_ASSERT_EQUAL_STRING("", runs.run[1].remark.text);
