@@ -174,11 +174,13 @@ static void put_heading_and_rest(hci_output *out, const char *text)
     hci_output_text(out, "</ul>\n");
 }
 
-/* One that is set in belongs to the item above. */
+/* One that is set in belongs to the item above, and is a formula. */
 static void put_line_of_item(hci_output *out, const char *text, size_t length)
 {
+    char formula[2048];
+    snprintf(formula, sizeof formula, "`%.*s`", (int)length, text);
     hci_output_text(out, "<li style=\"list-style:none\">");
-    put_clause(out, text, length);
+    put_with_code(out, formula);
     hci_output_text(out, "</li>\n");
 }
 

@@ -7,7 +7,11 @@
 #include "hci/host/machine/expected_ripple.h"
 #include "hci/machine/frames.h"
 
-enum { MOST_FINE = 64 }; /* samples of a step */
+enum {
+    MOST_FINE = 64, /* samples of a step */
+    MOST_TURNS = 8, /* electrical, in one picture */
+    FEW_TURNS = 3   /* that are drawn of more */
+};
 
 bool hci_order_is_missed(const hci_solved_order *o)
 {
@@ -71,14 +75,21 @@ static bool all_repeat(const hci_solution *s, double ripple_Nm, double current_A
     return true;
 }
 
-/* The turns after which what is seen repeats: those of the period, or fewer. */
-static size_t visible_turns(const hci_solution *s)
+static double seen_ripple_Nm(const hci_solution *s)
 {
-    double ripple_Nm = 0.0, current_A = 0.0;
-    size_t turns = 1;
+    double ripple_Nm = 0.0;
     for (size_t k = 0; k < s->order_count; ++k)
         if (hci_order_number(&s->order[k]) >= HCI_ORDER_TOLERANCE)
             ripple_Nm = fmax(ripple_Nm, RIPPLE * hci_order_largest_Nm(&s->order[k]));
+    return ripple_Nm;
+}
+
+/* The turns after which what is seen repeats: those of the period, or fewer. */
+static size_t visible_turns(const hci_solution *s)
+{
+    const double ripple_Nm = seen_ripple_Nm(s);
+    double current_A = 0.0;
+    size_t turns = 1;
     for (size_t k = 0; k < s->current.count; ++k)
         current_A =
             fmax(current_A, VISIBLE * hci_amplitude(s->current.wave[k].sine, s->current.wave[k].cosine));
@@ -153,9 +164,23 @@ static void fill(hci_solution_curves *c, const hci_solution *s, size_t turns)
         c->value[j][HCI_CURVE_VERTICES] = end[j];
 }
 
+/* Turns in which the slowest ripple that is seen comes once, and a few. */
+static size_t few_turns(const hci_solution *s)
+{
+    double turns = FEW_TURNS;
+    const double ripple_Nm = seen_ripple_Nm(s);
+    for (size_t k = 0; k < s->order_count; ++k) {
+        const double order = hci_order_number(&s->order[k]);
+        if (order >= HCI_ORDER_TOLERANCE && hci_order_largest_Nm(&s->order[k]) >= ripple_Nm)
+            turns = fmax(turns, ceil(1.0 / order - HCI_ORDER_TOLERANCE));
+    }
+    return (size_t)turns;
+}
+
 void hci_solution_curves_fill(hci_solution_curves *c, const hci_solution *s)
 {
-    fill(c, s, visible_turns(s));
+    const size_t turns = visible_turns(s), few = few_turns(s);
+    fill(c, s, turns > MOST_TURNS && few < turns ? few : turns);
 }
 
 void hci_solution_curves_fill_period(hci_solution_curves *c, const hci_solution *s)

@@ -32,7 +32,8 @@ typedef struct {
     double value[HCI_CURVES][HCI_CURVE_VERTICES + 1];
 } hci_solution_curves;
 
-/* Of as many turns as what is seen repeats after; or of the whole period, whose extremes are those that are
+/* Of as many turns as what is seen repeats after, of more than eight the first three, or as many as
+ * the slowest ripple takes; or of the whole period, whose extremes are those that are
  * stated. */
 void hci_solution_curves_fill(hci_solution_curves *curves, const hci_solution *solution);
 void hci_solution_curves_fill_period(hci_solution_curves *curves, const hci_solution *solution);

@@ -71,7 +71,8 @@ static void test_the_opening(void)
     text_has("<title>one is (two; three) and `f`</title>", text);
     text_has(
         "<p class=\"kicker\"><span class=\"badge good\">ba&#60;d</span> <span class=\"topic\">kick &#38; off"
-        "</span></p>\n<h1>One is (two; three) and <code>f</code></h1>\n<ul class=\"also\">\n<li>i<sub>q</sub> "
+        "</span></p>\n<h1>One is (two; three) and <code>f</code></h1>\n<ul "
+        "class=\"also\">\n<li>i<sub>q</sub> "
         "is four</li>\n"
         "<li>Δ (five; (six; a) b)</li>\n<li>Seven;eight</li>\n</ul>\n",
         text);
@@ -90,6 +91,9 @@ static void test_further_items(void)
     hci_html_also(out, "third\n");
     is_written("<ul class=\"also\">\n<li>First</li>\n<li>Second <code>c</code></li>\n</ul>\n"
                "<ul class=\"also\">\n<li>Third</li>\n</ul>\n");
+    hci_html_also(out, "corrected:\n  theta = theta_read - 0.1");
+    is_written("<ul class=\"also\">\n<li>Corrected:</li>\n"
+               "<li style=\"list-style:none\"><code>theta = theta_read - 0.1</code></li>\n</ul>\n");
 }
 
 static void test_sections(void)
@@ -105,8 +109,7 @@ static void test_sections(void)
     hci_html_section(out, "axi_a");
     is_written("<section>\n<h2>axi_a</h2>\n");
     hci_html_paragraph(out, NULL, "L_q of 3 N·m, i_a_rms, 2 A; 4 Amp `i_b 5 A` i_b");
-    is_written(
-        "<p>L<sub>q</sub> of 3 N·m, i_a_rms, 2 A; 4 Amp <code>i_b 5 A</code> i<sub>b</sub></p>\n");
+    is_written("<p>L<sub>q</sub> of 3 N·m, i_a_rms, 2 A; 4 Amp <code>i_b 5 A</code> i<sub>b</sub></p>\n");
     hci_html_end(out);
     text_has("</p>\n</main>\n</body>\n</html>\n", written());
 }

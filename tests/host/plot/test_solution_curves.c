@@ -86,6 +86,28 @@ static void test_turns_that_are_drawn(void)
     TEST_ASSERT_EQUAL_DOUBLE(6.0, curves.turns);
 }
 
+/* Of twelve turns that differ three are drawn, or those in which the slowest ripple comes once; of eight all.
+ */
+static void test_few_of_many_turns(void)
+{
+    static const struct {
+        double order;
+        size_t period;
+        double turns;
+    } CASE[] = {{13.0 / 12.0, 12, 3.0},
+                {1.0 / 5.0, 12, 5.0},
+                {7.0 / 12.0, 12, 3.0},
+                {9.0 / 8.0, 8, 8.0},
+                {1.0 / 12.0, 12, 12.0}};
+    solution.order_count = 3;
+    for (size_t k = 0; k < sizeof CASE / sizeof *CASE; ++k) {
+        solution.period_turns = CASE[k].period;
+        order[2].torque_Nm = hci_harmonic_polar(CASE[k].order, 0.2, 0.0);
+        hci_solution_curves_fill(&curves, &solution);
+        TEST_ASSERT_EQUAL_DOUBLE(CASE[k].turns, curves.turns);
+    }
+}
+
 /* Eight samples of the highest order, 2 to 64 a step; fewer turns where these are not enough. */
 static void test_samples_of_a_step(void)
 {
@@ -204,6 +226,7 @@ int main(void)
     RUN_TEST(test_what_is_seen);
     RUN_TEST(test_the_largest_of_an_order);
     RUN_TEST(test_turns_that_are_drawn);
+    RUN_TEST(test_few_of_many_turns);
     RUN_TEST(test_samples_of_a_step);
     RUN_TEST(test_values_of_the_curves);
     RUN_TEST(test_extremes_of_a_step);
