@@ -38,6 +38,16 @@ says '^a convention is broken: Most likely pole_pairs is not .*, so nothing was 
 run 1 tune log0.csv log0.3.csv log0.6.csv log1.csv --pole-pairs 5 --flux 0.00133333333333333 -o point # a number of the sheet is still named
 says '--flux 0\.0133333 fits'
 
+# ---- a column that one log calls otherwise is that of one log, for check too; one that none has is an error
+
+sed '1s/theta_m_rad/probe/' log0.6.csv >probe.csv
+"$hci_solve" tune log0.csv log0.3.csv probe.csv log1.csv $motor --column theta_m=probe -o probed >probed.out 2>&1
+check "a column of one log: exit code $?" [ -s probed/summary.json ]
+"$hci_solve" check probed/machine log0.csv probe.csv --column theta_m=probe >check.out 2>&1
+check "check, a column of one log: exit code $?" grep -q '^consistent' check.out
+run 3 check probed/machine log0.csv log1.csv --column theta_m=probe
+says 'found no column `probe` in log0.csv'
+
 # ---- a current that is not read
 
 for load in 0 0.3 0.6 1; do

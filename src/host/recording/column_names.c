@@ -721,3 +721,19 @@ hci_status hci_column_names_apply_found(const hci_column_names *names, size_t *f
     }
     return status;
 }
+
+hci_status hci_column_names_check_found(const hci_column_names *names, const size_t *found, const char *path,
+                                        hci_note *note)
+{
+    hci_status status = HCI_OK;
+    for (size_t k = 0; names != NULL && k < names->count && !status; ++k) {
+        const hci_column_names one = {&names->item[k], 1};
+        hci_csv *csv;
+        if (found[k] > 0) continue;
+        status = hci_csv_read_recording(path, &csv, note);
+        if (status) return status;
+        status = hci_column_names_apply(&one, false, csv, note);
+        hci_csv_free(csv);
+    }
+    return status;
+}

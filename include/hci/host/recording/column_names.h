@@ -59,6 +59,10 @@ hci_status hci_column_names_apply(const hci_column_names *names, bool optional, 
 hci_status hci_column_names_apply_found(const hci_column_names *names, size_t *found, hci_csv *csv,
                                         hci_note *note);
 
+/* A column that none of several files had: the error that the one at `path` gives. found: [names->count]. */
+hci_status hci_column_names_check_found(const hci_column_names *names, const size_t *found, const char *path,
+                                        hci_note *note);
+
 #ifdef __cplusplus
 }
 #endif

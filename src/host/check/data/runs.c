@@ -290,16 +290,35 @@ static void take_torque_zero(check_data *data)
     }
 }
 
+/* Of several recordings each may lack columns that names give; one that none has is an error, and so is one
+ * without which a recording cannot be read. */
+static hci_status runs_read(const char *const *path, size_t count, const hci_run_options *reading,
+                            check_data *data, hci_note *remark, hci_note *note)
+{
+    hci_run_options each = *reading;
+    const size_t names = reading->columns ? reading->columns->count : 0;
+    size_t *found = hci_memory_new(names + 1, sizeof *found);
+    hci_status status = found ? HCI_OK : hci_note_memory(note, NULL, "%zu runs", count);
+    if (count > 1) each.columns_found = found;
+    for (size_t k = 0; k < count && !status; ++k) {
+        status = run_read(path[k], &each, data, &remark[k], note);
+        if (status == HCI_ERROR_INPUT && count > 1)
+            status = run_read(path[k], reading, data, &remark[k], note);
+    }
+    if (!status && count > 1) status = hci_column_names_check_found(reading->columns, found, path[0], note);
+    hci_memory_free(found);
+    return status;
+}
+
 hci_status hci_check_runs_read(const char *const *path, size_t count, const hci_run_options *reading,
                                check_data *data, hci_note *remark, hci_note *note)
 {
-    hci_status status = HCI_OK;
+    hci_status status;
     data->columns = reading->columns;
     scales_make(data);
     data->run = hci_memory_new(CHECK_MOST_PARTS * count, sizeof *data->run);
     if (!data->run) return hci_note_memory(note, NULL, "%zu runs", count);
-    for (size_t k = 0; k < count && !status; ++k)
-        status = run_read(path[k], reading, data, &remark[k], note);
+    status = runs_read(path, count, reading, data, remark, note);
     data->no_current_A = no_current(data);
     if (!status) typed_leave(path, count, data, remark);
     if (!status) take_torque_zero(data);

@@ -154,23 +154,6 @@ static hci_status read_lacking(const list_reader *l, const hci_run_options *opti
     return status ? status : refuse_calculated(path, run, l->note);
 }
 
-/* A column that no recording has: the error that the first one of them gives. */
-static hci_status check_found(const list_reader *l)
-{
-    const hci_column_names *names = l->run.columns;
-    hci_status status = HCI_OK;
-    for (size_t k = 0; names != NULL && k < names->count && !status; ++k) {
-        const hci_column_names one = {&names->item[k], 1};
-        hci_csv *csv;
-        if (l->run.columns_found[k] > 0) continue;
-        status = hci_csv_read_recording(l->runs->origin[0].path, &csv, l->note);
-        if (status) return status;
-        status = hci_column_names_apply(&one, false, csv, l->note);
-        hci_csv_free(csv);
-    }
-    return status;
-}
-
 /* Counts in `found` which columns that options name a recording of the list has; one that cannot be read has
  * none. */
 static void look_into(const list_reader *l, size_t row, size_t *found)
@@ -340,7 +323,7 @@ hci_status hci_runs_read(const char *path, const hci_runs_options *options, hci_
     if (!status && l.run.columns_found == NULL) status = memory_error(&l);
     if (!status) status = read_rows(&l);
     if (!status)
-        status = check_found(&l);
+        status = hci_column_names_check_found(l.run.columns, l.run.columns_found, runs->origin[0].path, note);
     else if (l.run.columns_found != NULL)
         status = refuse_absent(&l, status);
     if (!status) status = hci_torque_maps_split(runs, 0, note);
