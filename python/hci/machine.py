@@ -304,7 +304,8 @@ class Machine:
         options.slip, options.slip_context = ffi.addressof(lib, "hci_check_slip"), slip.c
         watch.into(options)
         c, note = ffi.new("hci_diagnosis *"), Note()
-        status = lib.hci_diagnose(self.c, ffi.addressof(self._effects, "list"), read.c, options, c, note.c)
+        diagnose = lib.hci_diagnose if _last is None else lib.hci_diagnose_further
+        status = diagnose(self.c, ffi.addressof(self._effects, "list"), read.c, options, c, note.c)
         found = ffi.gc(c, lib.hci_diagnosis_release)
         watch.finish((KeyboardInterrupt,))
         note.check(status)
