@@ -109,8 +109,14 @@ const char *cli_tune_order_words(const cli_tuning *t, double order, char text[CL
 enum { PARTS_OF_SPEEDS = 16 };
 
 typedef struct {
-    double least, most; /* rad/s, mean speeds */
+    double least, most;      /* rad/s, mean speeds */
+    double slowest, fastest; /* their sizes, either way round */
 } range_of_speeds;
+
+#define NO_SPEEDS                                                                                            \
+    {                                                                                                        \
+        HUGE_VAL, -HUGE_VAL, HUGE_VAL, 0.0                                                                   \
+    }
 
 /* Of samples from `from` up to `end`, where their speed is steady or does not have to be. */
 static void add_speed(const hci_run *r, size_t from, size_t end, bool may_vary, range_of_speeds *s)
@@ -123,17 +129,21 @@ static void add_speed(const hci_run *r, size_t from, size_t end, bool may_vary, 
     if (!may_vary && !(square < STEADY * STEADY * mean * mean)) return;
     s->least = fmin(s->least, mean);
     s->most = fmax(s->most, mean);
+    s->slowest = fmin(s->slowest, fabs(mean));
+    s->fastest = fmax(s->fastest, fabs(mean));
 }
 
 /* Of its steady parts, as of a file with several tests; of none, its mean. */
 static void add_speeds(const hci_run *r, range_of_speeds *s)
 {
-    range_of_speeds own = {HUGE_VAL, -HUGE_VAL};
+    range_of_speeds own = NO_SPEEDS;
     for (size_t k = 0; k < PARTS_OF_SPEEDS && r->count >= PARTS_OF_SPEEDS; ++k)
         add_speed(r, k * r->count / PARTS_OF_SPEEDS, (k + 1) * r->count / PARTS_OF_SPEEDS, false, &own);
     if (own.least > own.most) add_speed(r, 0, r->count, true, &own);
     s->least = fmin(s->least, own.least);
     s->most = fmax(s->most, own.most);
+    s->slowest = fmin(s->slowest, own.slowest);
+    s->fastest = fmax(s->fastest, own.fastest);
 }
 
 /* Rows without a clock whose shaft was turned all the same: they have a speed, or go on beyond a turn, which
@@ -158,7 +168,7 @@ static bool is_one_speed(const range_of_speeds *s)
  * the load has beside others. */
 static bool has_one_speed(const cli_tuning *t)
 {
-    range_of_speeds s[2] = {{HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, -HUGE_VAL}};
+    range_of_speeds s[2] = {NO_SPEEDS, NO_SPEEDS};
     bool untimed = false;
     for (size_t k = 0; k < t->runs.count; ++k) {
         const hci_run *r = &t->runs.run[k];
@@ -170,15 +180,39 @@ static bool has_one_speed(const cli_tuning *t)
     return is_one_speed(&s[0]) && is_one_speed(&s[1]);
 }
 
-/* Of steady parts that a torque sensor has measured in time; electrical. */
-static double fastest_rad_per_s(const cli_tuning *t)
+/* Of steady parts that a torque sensor has measured in time. */
+static range_of_speeds measured_speeds(const cli_tuning *t)
 {
-    range_of_speeds s = {HUGE_VAL, -HUGE_VAL};
+    range_of_speeds s = NO_SPEEDS;
     for (size_t k = 0; k < t->runs.count; ++k) {
         const hci_run *r = &t->runs.run[k];
         if (r->torque_source == HCI_TORQUE_MEASURED && r->time_s && r->speed_rad_per_s) add_speeds(r, &s);
     }
-    return s.least > s.most ? 0.0 : t->declared.model.pole_pairs * fmax(fabs(s.least), fabs(s.most));
+    return s;
+}
+
+static double fastest_rad_per_s(const cli_tuning *t)
+{
+    return t->declared.model.pole_pairs * measured_speeds(t).fastest;
+}
+
+double cli_tune_early_s(const cli_tuning *t)
+{
+    const hci_effects *list = &t->diagnosis.effects.list;
+    for (size_t k = 0; k < list->count; ++k) {
+        const hci_effect *e = &list->effect[k];
+        for (size_t j = 0; e->type->late && j < e->count; ++j)
+            if (e->type->correction[e->term[j].parameter] == HCI_CORRECT_ANGLE_DELAY &&
+                e->term[j].value < 0.0)
+                return -e->term[j].value;
+    }
+    return 0.0;
+}
+
+bool cli_tune_is_late_at_one_pace(const cli_tuning *t)
+{
+    const range_of_speeds s = measured_speeds(t);
+    return cli_tune_early_s(t) > 0.0 && s.fastest < ONE_SPEED * s.slowest;
 }
 
 double cli_tune_late_Nm_per_s(const cli_tuning *t)
@@ -201,7 +235,8 @@ bool cli_tune_lacks_times(const cli_tuning *t)
 
 bool cli_tune_hangs_on_lag(const cli_tuning *t)
 {
-    return t->is_solved && t->solution.expected.state == HCI_RIPPLE_KNOWN && has_one_speed(t);
+    return t->is_solved && t->solution.expected.state == HCI_RIPPLE_KNOWN &&
+           (has_one_speed(t) || cli_tune_is_late_at_one_pace(t));
 }
 
 bool cli_tune_lacks_torque(const cli_tuning *t)

@@ -32,6 +32,13 @@ bool cli_tune_off_iq(const cli_tuning *tune, double *offset_deg);
 /* Whether nothing in the recordings counts the pole pairs that were given. */
 bool cli_tune_is_uncounted(const cli_tuning *tune);
 
+/* By how many seconds the angle is found to be read before it is true, as no sensor does; 0: it is not. */
+double cli_tune_early_s(const cli_tuning *tune);
+
+/* Whether it is, and all torques were measured at one speed, forward or back: how much smaller a late sensor
+ * has read the ripple is not told then. */
+bool cli_tune_is_late_at_one_pace(const cli_tuning *tune);
+
 /* Whether the bound is of recordings at one speed or without a time, which do not tell a torque sensor that
  * reads late. */
 bool cli_tune_hangs_on_lag(const cli_tuning *tune);

@@ -55,7 +55,7 @@ static bool is_sound(const cli_tuning *t)
            !cli_tune_is_short(t) && !(t->once_a_turn_Nm > 0.0) && cli_tune_clipped(t) == 0 &&
            cli_tune_torque_clipped(t) == 0 && t->size == CLI_TUNE_USUAL && !(t->drives_Nm > 0.0) &&
            !(fabs(t->turned_deg) > 0.0) && !(fabs(t->open_turn_deg) > 0.0) &&
-           cli_tune_calculated_beside(t) == 0;
+           cli_tune_calculated_beside(t) == 0 && !cli_tune_is_late_at_one_pace(t);
 }
 
 /* Whether the table is what was wanted, of a model that can be believed. */

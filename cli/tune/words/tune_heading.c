@@ -28,6 +28,7 @@ static const char *becomes(double before_Nm, double after_Nm)
 static const char *if_in_time(const cli_tuning *t)
 {
     if (!cli_tune_hangs_on_lag(t)) return "";
+    if (cli_tune_is_late_at_one_pace(t)) return " if the torque sensor is in time, which these logs deny";
     return cli_tune_lacks_times(t) ? " if the torque sensor is in time, which logs without a time do not tell"
                                    : " if the torque sensor is in time, which one speed does not tell";
 }

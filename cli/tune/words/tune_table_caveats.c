@@ -155,33 +155,23 @@ static void append_of_gain(cli_tuning *t)
             offsets_Nm(t));
 }
 
-/* How early a channel is read that a drive can correct, s; 0: none is. */
-static double early_s(const cli_tuning *t)
-{
-    const hci_effects *list = &t->diagnosis.effects.list;
-    for (size_t k = 0; k < list->count; ++k) {
-        const hci_effect *e = &list->effect[k];
-        for (size_t j = 0; e->type->late && j < e->count; ++j)
-            if (e->type->correction[e->term[j].parameter] == HCI_CORRECT_ANGLE_DELAY &&
-                e->term[j].value < 0.0)
-                return -e->term[j].value;
-    }
-    return 0.0;
-}
-
 /* Nothing is read before it is true. */
 static void append_of_early(cli_tuning *t)
 {
-    const double early = early_s(t);
+    const double early = cli_tune_early_s(t);
     if (early > 0.0)
         cli_tune_caveat(
             t,
             "The angle seems to be read %.2g s before it is true, as no sensor does: most likely the "
-            "torque sensor is late by as much, and nothing is corrected for it; where the drive looks "
+            "torque sensor is late by as much%s, and nothing is corrected for it; where the drive looks "
             "ahead, or "
             "reads its currents late, add to the angle the speed times -%.5g s, and logs at other speeds "
             "and loads tell which it is",
-            early, early);
+            early,
+            cli_tune_is_late_at_one_pace(t) ? " or more and reads the ripple too small, by how much one "
+                                              "speed does not tell, so that no bound holds"
+                                            : "",
+            early);
 }
 
 /* What the direction of the currents tells where a drive wants no i_d. */

@@ -391,7 +391,7 @@ static bool is_ambiguous(const hci_diagnosis *d, const char *effect)
 /* Whether its values stand on top of the declared cogging torque, and are others without that. */
 static bool is_beside_cogging(const hci_effect_type *type)
 {
-    return strcmp(type->name, "cogging") == 0 || strcmp(type->name, "mechanical_order") == 0;
+    return type->any_phase;
 }
 
 static hci_status effect_compare(const last_diagnosis *last, const hci_diagnosis *d, const char *name,
