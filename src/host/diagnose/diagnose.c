@@ -247,6 +247,19 @@ static hci_status take_out(const hci_runs *runs, const char *file, hci_runs *res
     return rest->run && rest->role ? HCI_OK : hci_note_memory(note, NULL, "the recordings");
 }
 
+static bool saturates(const hci_diagnosis *d)
+{
+    for (size_t k = 0; k < d->effects.list.count; ++k)
+        if (d->effects.list.effect[k].type->beyond_quadratic) return true;
+    return false;
+}
+
+/* A slip with no value to choose. */
+static bool is_plain_slip(const hci_odd_run *odd)
+{
+    return odd->mended && !(fabs(odd->angle_rad) > 0.0);
+}
+
 /* Whether the others are understood, and this run is the one that disagrees with them then too. */
 static hci_status confirm(const task *t, const hci_diagnosis *d, hci_odd_run *odd, bool *certain,
                           hci_note *note)
@@ -257,8 +270,10 @@ static hci_status confirm(const task *t, const hci_diagnosis *d, hci_odd_run *od
     hci_status status = dataset_of(t, &d->effects.list, &b, note);
     if (status) return status;
     status = hci_odd_run_find(t->machine, &b, t->runs, &again, certain, note);
-    hci_dataset_release(&b);
     *certain = *certain && again.file == odd->file;
+    if (*certain && !is_plain_slip(&again) && saturates(d))
+        *certain = !hci_odd_run_is_beyond(&b, t->runs, again.file);
+    hci_dataset_release(&b);
     if (*certain) *odd = again;
     return status;
 }

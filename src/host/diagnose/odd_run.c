@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "hci/math/dense.h"
+#include "hci/math/harmonic.h"
 #include "host/base/memory.h"
 #include "host/diagnose/fit/dataset.h"
 #include "host/diagnose/odd_slip.h"
@@ -20,7 +21,9 @@
 #define STEADY     0.1  /* of the speed, that it deviates by where it is one */
 #define DIRECT     0.1  /* of the current: i_d that is not there */
 
-enum { LEAST_OTHERS = 4, LEAST_LOADED = 2 };
+#define BEYOND 0.1 /* of the current: beyond what the others tell of iron that saturates */
+
+enum { LEAST_OTHERS = 4, LEAST_LOADED = 2, DIRECTIONS = 36 /* of half a turn of the rotor frame */ };
 
 /* ---- whether the others tell its state ---- */
 
@@ -174,6 +177,28 @@ hci_status hci_odd_run_find(const hci_machine_data *machine, hci_dataset *b, con
     hci_memory_free(d.run);
     forget(b, work);
     return status;
+}
+
+/* How far the currents of a run reach along a direction of the rotor frame. */
+static double reach_along(const hci_run_statistics *x, double cosine, double sine)
+{
+    return x->mean_id_A * cosine + fabs(x->mean_iq_A) * sine;
+}
+
+bool hci_odd_run_is_beyond(const hci_dataset *b, const hci_runs *runs, const char *file)
+{
+    size_t odd = 0;
+    while (runs->run[odd].name != file)
+        ++odd;
+    const hci_run_statistics *of = b->samples.statistics, *y = &of[odd];
+    for (int k = 0; k <= DIRECTIONS; ++k) {
+        const double cosine = cos(HCI_PI * k / DIRECTIONS), sine = sin(HCI_PI * k / DIRECTIONS);
+        double others_A = -INFINITY;
+        for (size_t r = 0; r < runs->count; ++r)
+            if (is_of_kind(runs, b, r, odd)) others_A = fmax(others_A, reach_along(&of[r], cosine, sine));
+        if (reach_along(y, cosine, sine) > others_A + BEYOND * y->current_A) return true;
+    }
+    return false;
 }
 
 /* ---- whether a suspicion still stands ---- */

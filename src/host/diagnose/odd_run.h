@@ -20,6 +20,10 @@ bool hci_odd_run_is_asked(const hci_runs *runs);
 hci_status hci_odd_run_find(const hci_machine_data *machine, hci_dataset *dataset, const hci_runs *runs,
                             hci_odd_run *odd, bool *certain, hci_note *note);
 
+/* Whether the mean currents of a run lie outside of those of the others, taken as alike for both signs of
+ * i_q: iron that saturates is not told there by them. dataset: of all runs. O(runs). */
+bool hci_odd_run_is_beyond(const hci_dataset *dataset, const hci_runs *runs, const char *file);
+
 /* Runs that are tried, where the means of all are not explained: if the others are without either of two, it
  * is none of them. */
 enum { HCI_ODD_MEANS = 2 };

@@ -163,6 +163,30 @@ static void test_the_only_load_is_not_odd(void)
     is_not_odd();
 }
 
+/* One operating point of iron with the co-energy c d q² and e d² q²: the second is nothing where d or q is 0.
+ */
+static void record_iron(double d, double q, double speed)
+{
+    record(SAMPLES, &(point){speed, q, 0.0, 0.0, 0.0});
+    hci_run *r = &run[runs.count - 1];
+    const double c = -3e-4, e = 1e-3;
+    for (size_t k = 0; k < r->count; ++k) {
+        rec_phases(d, q, P * r->theta_m_rad[k], r->i_A + 3 * k);
+        r->torque_Nm[k] +=
+            P * (c * (q * q * q - 2.0 * d * d * q) + 2.0 * e * (d * q * q * q - d * d * d * q));
+    }
+}
+
+/* Iron that saturates, between currents along d and along q that the others have. */
+static void test_iron_beyond_the_others_is_not_odd(void)
+{
+    static const double POINT_A[][2] = {{0.0, 2.0}, {0.0, -5.0}, {0.0, 8.0}, {-8.0, 0.0},
+                                        {0.0, 5.0}, {0.0, -8.0}, {0.0, 0.0}, {-5.0, 6.0}};
+    for (size_t k = 0; k < sizeof POINT_A / sizeof *POINT_A; ++k)
+        record_iron(POINT_A[k][0], POINT_A[k][1], k % 2 ? -60.0 : 60.0);
+    is_not_odd();
+}
+
 /* A drag at the only high speed, and in the only direction. */
 static void test_the_only_speed_is_not_odd(void)
 {
@@ -351,6 +375,7 @@ int main(void)
     RUN_TEST(test_a_run_held_out);
     RUN_TEST(test_beside_an_effect);
     RUN_TEST(test_the_only_load_is_not_odd);
+    RUN_TEST(test_iron_beyond_the_others_is_not_odd);
     RUN_TEST(test_the_only_speed_is_not_odd);
     RUN_TEST(test_the_only_direction_is_not_odd);
     RUN_TEST(test_the_only_warm_run_is_not_odd);
