@@ -292,8 +292,8 @@ static void take_torque_zero(check_data *data)
 
 /* Of several recordings each may lack columns that names give; one that none has is an error, and so is one
  * without which a recording cannot be read. */
-static hci_status runs_read(const char *const *path, size_t count, const hci_run_options *reading,
-                            check_data *data, hci_note *remark, hci_note *note)
+static hci_status all_read(const char *const *path, size_t count, const hci_run_options *reading,
+                           check_data *data, hci_note *remark, hci_note *note)
 {
     hci_run_options each = *reading;
     const size_t names = reading->columns ? reading->columns->count : 0;
@@ -318,7 +318,7 @@ hci_status hci_check_runs_read(const char *const *path, size_t count, const hci_
     scales_make(data);
     data->run = hci_memory_new(CHECK_MOST_PARTS * count, sizeof *data->run);
     if (!data->run) return hci_note_memory(note, NULL, "%zu runs", count);
-    status = runs_read(path, count, reading, data, remark, note);
+    status = all_read(path, count, reading, data, remark, note);
     data->no_current_A = no_current(data);
     if (!status) typed_leave(path, count, data, remark);
     if (!status) take_torque_zero(data);
