@@ -276,18 +276,20 @@ static hci_status settle_parts(const comparison *c, choice *how, bool *changed, 
 }
 
 /* With high powers of the mean, where left-out runs say so plainly: they are as large as they like, and
- * wrong outside of the currents that were measured. */
+ * wrong outside of the currents that were measured. They take the place of parts, and bring none in. */
 static hci_status sharpen(const comparison *c, choice *best, double *least, hci_note *note)
 {
-    choice sharp = *best;
+    choice sharp = *best, settled;
     double of_sharp = INFINITY;
     bool changed;
     sharp.sharp = true;
     hci_status status = choose(c, &sharp, &of_sharp, note);
     if (status || !(of_sharp < *least - SHARP)) return status;
-    *best = sharp;
+    *best = settled = sharp;
     *least = of_sharp;
-    status = settle_parts(c, best, &changed, note);
+    status = settle_parts(c, &settled, &changed, note);
+    for (int part = 0; part < PARTS; ++part)
+        best->without[part] = sharp.without[part] || settled.without[part];
     return status || !changed ? status : choose(c, best, least, note);
 }
 
