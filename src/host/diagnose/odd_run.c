@@ -238,7 +238,7 @@ void hci_suspect_release(hci_suspect *s)
 /* ---- whose mean alone is off ---- */
 
 /* A zero, a friction, and a torque of the current that saturates. */
-enum { MEAN_TERMS = 4 };
+enum { MEAN_TERMS = 4, SPARE_MEANS = 5 /* of the others, beyond what takes them to be known */ };
 
 #define RIDGE     1e-9 /* of the diagonal, for terms that the runs do not tell apart */
 #define NEARER    0.3  /* of what all runs leave: a run without which it is less may be it */
@@ -363,6 +363,18 @@ static double others_mean_Nm(const hci_diagnosis *others)
     return sqrt(sum);
 }
 
+/* Terms that make a mean torque, of what the others show: each takes one of their means to be known. */
+static size_t mean_terms(const hci_effects *list)
+{
+    size_t count = 0;
+    for (size_t k = 0; k < list->count; ++k)
+        for (size_t j = 0; j < list->effect[k].count; ++j) {
+            const double order = list->effect[k].term[j].order;
+            count += order < HCI_ORDER_TOLERANCE || fabs(order - 1.0) < HCI_ORDER_TOLERANCE;
+        }
+    return count;
+}
+
 /* Whether the others tell all of its state but the speed. */
 static bool is_told_but_speed(const reach *r, hci_run_statistics y)
 {
@@ -394,7 +406,8 @@ static hci_odd_run constant_of(const hci_diagnosis *others, const hci_run_errors
                              .mean_open_Nm = open_Nm,
                              .mean_is_untold = !is_told(r, y)};
     const bool quiet = e->ripple_after_Nm <= QUIET * e->noise_floor_Nm;
-    return quiet && is_certain(r, y, &odd) ? odd : (hci_odd_run){.file = NULL};
+    const bool told = others->runs >= mean_terms(&others->effects.list) + SPARE_MEANS;
+    return quiet && told && is_certain(r, y, &odd) ? odd : (hci_odd_run){.file = NULL};
 }
 
 hci_status hci_odd_mean_judge(const hci_machine_data *machine, const hci_dataset *b, const hci_runs *runs,

@@ -333,13 +333,13 @@ static void test_a_zero_at_a_speed_of_its_own(void)
     for (int drives = 0; drives < 2; ++drives) {
         runs.count = 0;
         hci_diagnosis_release(&diagnosis);
-        for (size_t k = 0; k < RUNS; ++k)
+        for (size_t k = 0; k < MOST_RUNS; ++k)
             rec_release(&run[k]);
-        record_all(0.1);
+        record_more(0.1);
         rec_release(&run[--runs.count]);
         record(SAMPLES, &(point){140.0, 5.0, 0.0, drives ? 0.07 : 0.13, 0.0});
         (void)diagnose(NULL);
-        TEST_ASSERT_EQUAL_MESSAGE(drives, diagnosis.odd.file == run[RUNS - 1].name,
+        TEST_ASSERT_EQUAL_MESSAGE(drives, diagnosis.odd.file == run[MOST_RUNS - 1].name,
                                   drives ? "drives" : "brakes");
         if (!drives) continue;
         TEST_ASSERT_TRUE(diagnosis.odd.mean_is_untold);

@@ -14,6 +14,8 @@
 
 enum {
     LEAST_RUNS = 5,
+    SHARP_RUNS =
+        10, /* at different currents, which tell the high powers of the mean from runs that are off */
     LOW_POWER = 4,
     HIGH_POWER = 6,
     MEAN_POWER = 8, /* of what is the same at every angle, in a choice that is sharp */
@@ -80,6 +82,7 @@ typedef struct {
     hci_search *search;
     const hci_fitted_model *known;
     hci_candidates all;
+    size_t currents; /* that differ, of all runs */
     double noise_Nm; /* rms */
     hci_groups runs;
     hci_normal_equations *run;
@@ -310,7 +313,7 @@ static hci_status choose_all(const comparison *c, choice *best, hci_note *note)
         status = settle_parts(c, best, &changed, note);
         if (!status && changed) status = choose(c, best, &least, note);
     }
-    if (!status) status = sharpen(c, best, &least, note);
+    if (!status && c->currents >= SHARP_RUNS) status = sharpen(c, best, &least, note);
     if (!status && least > known + SELECTED) best->width = 0.0;
     return status;
 }
@@ -447,10 +450,9 @@ static hci_status sample_noise_find(hci_search *s, const hci_candidates *model, 
 
 hci_status hci_search_coenergy(hci_search *s, hci_fitted_model *model, hci_note *note)
 {
-    comparison c = {.search = s, .known = model};
+    comparison c = {.search = s, .known = model, .currents = different_currents(s->regression)};
     choice best = {0};
-    if (!hci_search_saturates(&model->candidates) || different_currents(s->regression) < LEAST_RUNS)
-        return HCI_OK;
+    if (!hci_search_saturates(&model->candidates) || c.currents < LEAST_RUNS) return HCI_OK;
     hci_status status = sample_noise_find(s, &model->candidates, &c.noise_Nm, note);
     if (status || c.noise_Nm > BLUNT * s->resolution_Nm) return status;
     noise_even(s->regression, c.noise_Nm);
