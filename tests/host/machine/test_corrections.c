@@ -47,7 +47,7 @@ static void test_currents(void)
 /* What acts last is undone first, in whatever order the file has it. */
 static void test_angles(void)
 {
-    words_of("position_eccentricity,mech_cosine_1,0.003,rad,\nposition_load,per_ampere,-1e-3,rad/A,\n"
+    words_of("position_eccentricity,mech_cosine_1,0.003,rad,\nposition_load,per_ampere,-1e-3,rad_per_A,\n"
              "position_harmonics,sine_2,-0.01,rad,\nposition_offset,angle,0.02,rad,\n");
     TEST_ASSERT_EQUAL_STRING("theta = theta_read - 0.02 rad (electrical)\n"
                              "theta = theta + 0.01 rad * sin(2 theta) (electrical)\n"
