@@ -19,39 +19,36 @@ static void add_wave(hci_corrections *c, hci_effect_correction kind, const hci_e
                          .is_cosine = kind == HCI_CORRECT_ANGLE_COSINE || kind == HCI_CORRECT_TURN_COSINE};
 }
 
-static void take_term(hci_corrections *c, hci_effect_correction kind, const hci_effect_term *term)
+/* What terms of a kind add up in; NULL: they do not add up. */
+static double *sum_of(hci_corrections *c, hci_effect_correction kind, size_t parameter)
 {
     switch (kind) {
     case HCI_CORRECT_CURRENT_ZERO:
-        c->zero_A[term->parameter] += term->value;
-        return;
-    case HCI_CORRECT_CURRENT_GAIN:
-        c->gain[term->parameter] /= 1.0 + term->value;
-        return;
+        return &c->zero_A[parameter];
     case HCI_CORRECT_ANGLE_ZERO:
-        c->angle_zero_rad += term->value;
-        return;
+        return &c->angle_zero_rad;
     case HCI_CORRECT_ANGLE_LOAD:
-        c->load_rad_per_A += term->value;
-        return;
-    case HCI_CORRECT_ANGLE_DELAY:
-        c->angle_delay_s += fmax(0.0, term->value);
-        return;
+        return &c->load_rad_per_A;
     case HCI_CORRECT_CURRENT_DELAY:
-        c->current_delay_s += term->value;
-        return;
+        return &c->current_delay_s;
     case HCI_CORRECT_CURRENT_FILTER:
-        c->current_filter_s += term->value;
-        return;
-    case HCI_CORRECT_ANGLE_SINE:
-    case HCI_CORRECT_ANGLE_COSINE:
-    case HCI_CORRECT_TURN_SINE:
-    case HCI_CORRECT_TURN_COSINE:
-        add_wave(c, kind, term);
-        return;
-    case HCI_CORRECT_NOTHING:
-        return;
+        return &c->current_filter_s;
+    default:
+        return NULL;
     }
+}
+
+static void take_term(hci_corrections *c, hci_effect_correction kind, const hci_effect_term *term)
+{
+    double *sum = sum_of(c, kind, term->parameter);
+    if (sum != NULL)
+        *sum += term->value;
+    else if (kind == HCI_CORRECT_CURRENT_GAIN)
+        c->gain[term->parameter] /= 1.0 + term->value;
+    else if (kind == HCI_CORRECT_ANGLE_DELAY)
+        c->angle_delay_s += fmax(0.0, term->value);
+    else if (kind != HCI_CORRECT_NOTHING)
+        add_wave(c, kind, term);
 }
 
 static void take_type(const hci_effects *effects, const hci_effect_type *type, hci_corrections *c)
