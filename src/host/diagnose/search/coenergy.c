@@ -24,6 +24,7 @@ enum {
     OF_IRON = 6, /* orders that phases which are alike make */
     PASSES = 4,  /* over the parts, at most */
     SINGLE_POWERS = 3,
+    DECLARED_POWERS = 2, /* cogging and back-EMF: tables of the machine, whose values are known */
     PARTS = SINGLE_POWERS + HCI_MOST_TYPES
 };
 
@@ -36,6 +37,8 @@ static const double WIDTHS[] = {1.0, 3.0, 10.0, 30.0, 100.0};
 #define LEAST    0.15 /* of the resolution: a torque that is large enough for a name */
 #define SHOWN    1.5  /* of the resolution, as an amplitude: no order above that has more is looked for */
 #define QUIET    2.0  /* noise over the resolution, up to which all orders are told */
+#define PAID     0.5  /* of the price of all terms of a part: the widths that are expected make them fewer */
+#define MOST     2.0  /* of the squares that are left with a part, that it takes away */
 #define NO_WORSE 0.01 /* of the mean logarithm of the squares */
 #define FLOOR    0.05 /* mean square of a run, in units of its noise, below which it is as good as can be */
 
@@ -197,26 +200,49 @@ static double sum_of(const comparison *c)
     return sum;
 }
 
-/* A sum of squares over all rows, in units of the noise, as rms torque. */
-static double rms_of(const comparison *c, double squares)
+static double rows_of(const comparison *c)
 {
     double rows = 0.0;
     for (size_t r = 0; r < c->runs.count; ++r)
         rows += c->runs.group[r].rows;
+    return rows;
+}
+
+/* A sum of squares over all rows, in units of the noise, as rms torque. */
+static double rms_of(const comparison *c, double squares)
+{
+    const double rows = rows_of(c);
     return rows > 0.0 ? c->noise_Nm * sqrt(fmax(0.0, squares) / rows) : 0.0;
 }
 
-/* rms torque that a fit to all runs loses without one part; 0 when memory is out. */
-static double explained_by(const comparison *c, const choice *how, int part)
+/* Sums of squares in a fit to all runs. */
+typedef struct {
+    double with, without; /* one part */
+} fitted_squares;
+
+/* Both 0 when memory is out. */
+static fitted_squares fit_squares(const comparison *c, const choice *how, int part)
 {
     choice less = *how;
-    double with = 0.0, without = 0.0;
+    fitted_squares x = {0.0, 0.0};
     less.without[part] = true;
     precision_set(c, how);
-    bool made = hci_all_in_square(&c->runs, c->precision, &with);
+    bool made = hci_all_in_square(&c->runs, c->precision, &x.with);
     precision_set(c, &less);
-    made = made && hci_all_in_square(&c->runs, c->precision, &without);
-    return made ? rms_of(c, without - with) : 0.0;
+    made = made && hci_all_in_square(&c->runs, c->precision, &x.without);
+    return made ? x : (fitted_squares){0.0, 0.0};
+}
+
+/* Whether terms of a declared table say enough for their number, or most of what a fit to all runs can.
+ * Where runs at few currents are left out, they also help between these in the place of high powers that
+ * nobody knows, and are no error of the table. */
+static bool is_paid(const comparison *c, int part, const fitted_squares *fit)
+{
+    const double lost = fit->without - fit->with;
+    double terms = 0.0;
+    for (size_t k = 0; k < c->all.count; ++k)
+        terms += part_of(&c->all.candidate[k]) == part ? (double)c->all.candidate[k].count : 0.0;
+    return part >= DECLARED_POWERS || lost >= PAID * terms * log(rows_of(c)) || lost >= MOST * fit->with;
 }
 
 /* How well left-out runs are described. */
@@ -253,9 +279,10 @@ static hci_status settle_part(const comparison *c, choice *how, int part, left_o
     if (status) return status;
     const left_out *in = was_without ? &other : present, *out = was_without ? present : &other;
     how->without[part] = false;
-    const bool large = explained_by(c, how, part) >= LEAST * c->search->resolution_Nm ||
+    const fitted_squares fit = fit_squares(c, how, part);
+    const bool large = rms_of(c, fit.without - fit.with) >= LEAST * c->search->resolution_Nm ||
                        rms_of(c, out->square - in->square) >= c->search->resolution_Nm;
-    how->without[part] = !large || !is_missed(in, out);
+    how->without[part] = !large || !is_paid(c, part, &fit) || !is_missed(in, out);
     if (how->without[part] != was_without) *present = other;
     return HCI_OK;
 }

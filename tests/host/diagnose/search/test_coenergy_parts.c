@@ -240,8 +240,23 @@ static void test_what_a_part_explains(void)
     precision_set(&c, &how);
     TEST_ASSERT_TRUE(hci_all_in_square(&c.runs, precision, &without));
     how.without[1] = false;
+    const fitted_squares fit = fit_squares(&c, &how, 1);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, with, fit.with);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, without, fit.without);
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.02 * sqrt((without - with) / (RUNS * ROWS)),
-                              explained_by(&c, &how, 1));
+                              rms_of(&c, fit.without - fit.with));
+}
+
+/* The two terms of the back-EMF: half of their price in BIC, or two thirds of all that is left without. What
+ * no table declares is not asked. */
+static void test_what_is_paid(void)
+{
+    const double price = (double)list[1].count * log(RUNS * ROWS);
+    TEST_ASSERT_TRUE(is_paid(&c, 1, &(fitted_squares){1e3, 1e3 + 0.51 * price}));
+    TEST_ASSERT_FALSE(is_paid(&c, 1, &(fitted_squares){1e3, 1e3 + 0.49 * price}));
+    TEST_ASSERT_TRUE(is_paid(&c, 1, &(fitted_squares){0.1 * price, 0.31 * price}));
+    TEST_ASSERT_FALSE(is_paid(&c, 1, &(fitted_squares){0.1 * price, 0.29 * price}));
+    TEST_ASSERT_TRUE(is_paid(&c, 2, &(fitted_squares){1e3, 1e3}));
 }
 
 static void test_what_is_missed(void)
@@ -344,6 +359,7 @@ int main(void)
     RUN_TEST(test_the_misfit_of_a_choice);
     RUN_TEST(test_the_best_of_all_choices);
     RUN_TEST(test_what_a_part_explains);
+    RUN_TEST(test_what_is_paid);
     RUN_TEST(test_what_is_missed);
     RUN_TEST(test_parts_that_runs_miss_come_in);
     RUN_TEST(test_what_of_a_choice_is_kept);
