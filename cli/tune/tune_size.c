@@ -153,6 +153,43 @@ static bool say_little(const cli_tuning *t, char *text, size_t size)
     return true;
 }
 
+#define MISSES                                                                                               \
+    0.25 /* of the mean torques of the recordings, rms, which a model of the machine does not miss */
+
+/* rms of the measured mean torques under load, and of what the model makes less of them. */
+static void means_under_load(const cli_tuning *t, double *mean_Nm, double *missed_Nm)
+{
+    double squares = 0.0, missed = 0.0, count = 0.0;
+    for (size_t k = 0; k < t->diagnosis.runs && k < t->runs.count; ++k) {
+        const hci_run_errors *r = &t->diagnosis.run[k];
+        if (r->source != HCI_TORQUE_MEASURED || cli_tune_has_no_current(t, &t->runs.run[k])) continue;
+        squares += r->mean_torque_Nm * r->mean_torque_Nm;
+        missed += r->error_mean_after_Nm * r->error_mean_after_Nm;
+        count += 1.0;
+    }
+    *mean_Nm = sqrt(squares / fmax(count, 1.0));
+    *missed_Nm = sqrt(missed / fmax(count, 1.0));
+}
+
+/* A model that does not explain the recordings, and makes other mean torques than they have. */
+static bool say_other_means(const cli_tuning *t, char *text, size_t size)
+{
+    double mean_Nm, missed_Nm;
+    if (!hci_expected_ripple_is_doubtful(&t->solution.expected)) return false;
+    means_under_load(t, &mean_Nm, &missed_Nm);
+    if (!(missed_Nm > MISSES * mean_Nm)) return false;
+    snprintf(
+        text, size,
+        "The model does not explain the recordings: their mean torques under load are %.3g N·m rms, and it "
+        "misses them by %.2g N·m, so that a table by it would make another torque than %.4g N·m and another "
+        "ripple. No table was written: what to record next stands below%s",
+        mean_Nm, missed_Nm, t->mean_Nm,
+        t->arguments->given[TUNE_INDUCTANCE_D]
+            ? ""
+            : "; for a rotor whose L_d and L_q differ, --inductance-d and --inductance-q come first");
+    return true;
+}
+
 static bool is_much_current(const cli_tuning *t)
 {
     return t->solution.peak_phase_current_A > EXCESS_CURRENT * t->usual_A;
@@ -187,8 +224,8 @@ static bool say_much_current(const cli_tuning *t, char *text, size_t size)
 }
 
 /* The first that holds is said. */
-static say_reason *const REASON[] = {say_large_cogging, say_against,     say_unlike,
-                                     say_little,        say_much_torque, say_much_current};
+static say_reason *const REASON[] = {say_large_cogging, say_against,     say_unlike,      say_little,
+                                     say_other_means,   say_much_torque, say_much_current};
 
 static say_reason *reason_of(const cli_tuning *t, char *text, size_t size)
 {
@@ -206,7 +243,7 @@ bool cli_tune_is_unexplained(const cli_tuning *t)
 {
     char text[1024];
     say_reason *reason = t->size == CLI_TUNE_EXCESS ? reason_of(t, text, sizeof text) : NULL;
-    return reason == say_unlike || reason == say_little;
+    return reason == say_unlike || reason == say_little || reason == say_other_means;
 }
 
 void cli_tune_judge_size(cli_tuning *t)
