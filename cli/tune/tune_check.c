@@ -214,16 +214,6 @@ static void say_evidence(cli_tuning *t, const hci_check_evidence *e)
                    e->declared, e->at_most ? "at most " : "", e->expected, unit);
 }
 
-/* A reluctance torque that nobody declared is no certainty as long as a scale does as well. */
-static void say_saliency(cli_tuning *t, const hci_check *c)
-{
-    char words[512];
-    if (c->verdict == HCI_CHECK_SLIPS || !*hci_check_saliency_words(c, words, sizeof words)) return;
-    hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN, "%s; %s declare it", words,
-                   t->is_own ? "--inductance-d and --inductance-q"
-                             : "inductance_d and inductance_q of machine.csv");
-}
-
 static void say_check(cli_tuning *t, const hci_check *c)
 {
     hci_tuning_say(&t->tuning, HCI_TUNING_READ, "conventions: %s (%zu relations checked)",
@@ -232,7 +222,7 @@ static void say_check(cli_tuning *t, const hci_check *c)
         say_evidence(t, &c->evidence[k]);
     for (size_t k = 0; k < c->findings; ++k)
         if (!is_excluded(t, c->finding[k].slip)) say_finding(t, c, &c->finding[k]);
-    say_saliency(t, c);
+    if (c->verdict != HCI_CHECK_SLIPS) hci_check_saliency_words(c, t->saliency, sizeof t->saliency);
 }
 
 /* What nothing can be solved with where it is not understood. */

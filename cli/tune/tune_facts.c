@@ -542,3 +542,10 @@ size_t cli_tune_calculated_beside(const cli_tuning *t)
     }
     return measured > 0 ? tabulated : 0;
 }
+
+bool cli_tune_is_calculated(const cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count; ++k)
+        if (!t->runs.run[k].is_tabulated) return false;
+    return t->runs.count > 0;
+}

@@ -148,4 +148,7 @@ bool cli_tune_say_long(const cli_tuning *tune, char *text, size_t size);
 /* How many runs are tabulated as torques are calculated, where others were measured over time; else 0. */
 size_t cli_tune_calculated_beside(const cli_tuning *tune);
 
+/* Whether all are: there is no bench, no sensor and no speed. */
+bool cli_tune_is_calculated(const cli_tuning *tune);
+
 #endif

@@ -53,6 +53,7 @@ typedef struct {
     bool counts_pole_pairs; /* something in the recordings does */
     double
         inertia_share; /* of the recording where it is largest, as in hci_run; 0: the inertia is believable */
+    char saliency[512];                  /* of a reluctance torque that nobody declared; "": none shows */
     bool has_standstill;                 /* the angle changes in none of the recordings */
     double turned_deg, turned_error_deg; /* --angle-offset that the torques ask for, electrical, and its
                                           * standard error; 0: none */

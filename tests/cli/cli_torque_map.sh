@@ -47,6 +47,11 @@ check "--again: not 11 recordings" [ "$(sed 1d "$work/second/errors.csv" | wc -l
 "$hci_solve" tune "$work/map.csv" --pole-pairs 2 --torque-constant 1.338 --rated-current 8 --work 0.05 -o "$work/tuned" >"$work/tuned.out" 2>&1
 check "tune: exit code $?" [ -s "$work/tuned/commands.sh" ]
 check "tune: the map is not read as one file" [ "$(grep -c 'samples at each operating point' "$work/tuned.out")" = 1 ]
+tr -s '[:space:]' ' ' <"$work/tuned.out" >"$work/tuned.words"
+check "tune: what is to be calculated" grep -q 'To be calculated, each over an electrical turn' "$work/tuned.words"
+for words in 'On the bench' 'turns forward' 'turns at' 'The sensors of the drive' 'does not declare is in the torques'; do
+    check "tune: $words" [ "$(grep -c "$words" "$work/tuned.words")" = 0 ]
+done
 check "tune: not one row in its list" [ "$(wc -l <"$work/tuned/runs.csv")" = 2 ]
 
 # Beside a log over time no promise is made: both need not be of one machine.

@@ -1,6 +1,5 @@
 #include "cli/tune/words/tune_found.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,6 +8,7 @@
 #include "cli/tune/tune_known.h"
 #include "cli/tune/tune_line.h"
 #include "cli/tune/tune_recorded.h"
+#include "cli/tune/words/tune_advice.h"
 #include "hci/host/waveform/turning_load.h"
 
 /* ---- effects ---- */
@@ -84,7 +84,8 @@ static void say_orders(cli_tuning *t, hci_tuning_part part, const hci_effect *e,
             if (amplitude < above && amplitude > most)
                 most = amplitude, error = std_error, order = e->term[k].order;
         }
-        if (!(most > 0.0)) return;
+        if (!(most > 0.0) || (shown > 0 && most <= error))
+            return; /* an order within its error is none to say */
         name_order(t, order, in_pairs, name);
         hci_tuning_say(&t->tuning, part, "  order %s: %.4g ± %.1g %s", name, most, error,
                        unit_for_people(e->type->parameter[0].unit));
@@ -355,6 +356,20 @@ static const hci_effect_term *mean_by_current(const hci_effect *e)
             return &e->term[k];
     }
     return NULL;
+}
+
+/* A reluctance torque that nobody declared is no certainty as long as a scale does as well; where it is found
+ * and explains the recordings, nothing is left of that. */
+static void say_saliency(cli_tuning *t)
+{
+    bool is_found = false;
+    for (size_t k = 0; k < t->diagnosis.findings; ++k)
+        is_found = is_found || (t->diagnosis.finding[k].verdict == HCI_FINDING_ADDED &&
+                                mean_by_current(effect_of(t, &t->diagnosis.finding[k])));
+    if (!*t->saliency || (is_found && t->diagnosis.verdict <= HCI_DIAGNOSIS_EXPLAINED)) return;
+    hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN, "%s; %s declare it", t->saliency,
+                   t->is_own ? "--inductance-d and --inductance-q"
+                             : "inductance_d and inductance_q of machine.csv");
 }
 
 /* Currents on one line that is not that of i_q: a drive that keeps its i_d at 0 beside a zero that is off, or
@@ -674,70 +689,6 @@ static void say_words(cli_tuning *t)
     }
 }
 
-static bool is_of_name(char c)
-{
-    return isalnum((unsigned char)c) || c == '_';
-}
-
-/* The effect that is named here as in effects.csv; NULL: none. */
-static const char *effect_at(const hci_diagnosis *d, const char *text)
-{
-    for (size_t k = 0; k < d->findings; ++k) {
-        const size_t length = strlen(d->finding[k].effect);
-        if (strncmp(text, d->finding[k].effect, length) == 0 && !is_of_name(text[length]))
-            return d->finding[k].effect;
-    }
-    return NULL;
-}
-
-/* Bytes of the advice that people are told otherwise, and how: effects and orders by the names that they use,
- * "order 7" for "sine_7", and not how much each run would tell, "(χ² 1.4e+03)", which measure_next.csv has.
- * 0: as they stand. */
-static size_t taken_at(const hci_diagnosis *d, const char *at, bool is_start, const char **words)
-{
-    const char *effect = is_start ? effect_at(d, at) : NULL;
-    *words = effect ? hci_finding_title(effect) : "";
-    if (effect) return strlen(effect);
-    if (begins(at, " (χ² ") && strchr(at, ')')) return strcspn(at, ")") + 1;
-    if (!is_start || (!begins(at, "sine_") && !begins(at, "cosine_"))) return 0;
-    *words = "order ";
-    return strcspn(at, "_") + 1;
-}
-
-static void say_advice(cli_tuning *t)
-{
-    char text[2 * sizeof t->diagnosis.advice] = "";
-    const char *advice = t->diagnosis.advice, *words;
-    for (const char *at = advice; *at;) {
-        const size_t used = strlen(text),
-                     taken = taken_at(&t->diagnosis, at, at == advice || !is_of_name(at[-1]), &words);
-        snprintf(text + used, sizeof text - used, "%.*s", taken > 0 ? (int)strlen(words) : 1,
-                 taken > 0 ? words : at);
-        at += taken > 0 ? taken : 1;
-    }
-    if (text[0]) hci_tuning_say(&t->tuning, HCI_TUNING_NEXT, "%s.", text);
-}
-
-/* A row of what is to be played: "  10 turns forward at 7.5 rpm: i_d 0 A, i_q 1.41 A". */
-static void say_point(cli_tuning *t, const hci_next_point *p)
-{
-    char current[64] = "the current that control makes";
-    if (isfinite(p->iq_A)) snprintf(current, sizeof current, "i_d %.3g A, i_q %.3g A", p->id_A, p->iq_A);
-    hci_tuning_say(&t->tuning, HCI_TUNING_NEXT, "  %.3g turns %s at %.3g rpm: %s%s", p->turns,
-                   p->speed_rad_per_s < 0.0 ? "back" : "forward", fabs(p->speed_rad_per_s) * 30.0 / HCI_PI,
-                   current, p->source == HCI_TORQUE_INERTIA ? ", the shaft free" : "");
-}
-
-/* What all of that comes to on the bench. */
-static void say_points(cli_tuning *t)
-{
-    const hci_diagnosis *d = &t->diagnosis;
-    if (d->next_points == 0) return;
-    hci_tuning_say(&t->tuning, HCI_TUNING_NEXT, "On the bench, each steady (diagnose/measure_next.csv):");
-    for (size_t k = 0; k < d->next_points; ++k)
-        say_point(t, &d->next[k]);
-}
-
 void cli_tune_say_diagnosis(cli_tuning *t)
 {
     const hci_diagnosis *d = &t->diagnosis;
@@ -749,6 +700,6 @@ void cli_tune_say_diagnosis(cli_tuning *t)
     say_zero_or_saliency(t);
     for (size_t k = 0; k < d->findings; ++k)
         say_turned(t, &d->finding[k]);
-    say_advice(t);
-    say_points(t);
+    say_saliency(t);
+    cli_tune_say_advice(t);
 }

@@ -360,7 +360,13 @@ static void say_corrections(cli_tuning *t)
 static void append_of_corrections(cli_tuning *t)
 {
     const char *open = open_correction(t);
-    if (open)
+    if (cli_tune_is_calculated(t))
+        cli_tune_caveat(
+            t,
+            "The model takes the angle or the currents of the calculation to be off, in the order of these "
+            "lines, and the table is over what they make: in the drive there is nothing to correct as long "
+            "as its zero of the angle is that of the magnets:");
+    else if (open)
         cli_tune_caveat(
             t,
             "The table hangs on what was found of the sensors, of which %s cannot be told from other "
