@@ -403,7 +403,33 @@ static void words_of_open(const hci_open_point *x, hci_next_point *to)
                       x->spread_Nm, x->chi_square);
 }
 
-static void advice_of_open(const hci_open_point *x, const hci_next_point *p, hci_diagnosis *d)
+/* Whether a drive can play a point, and no recording is one of it. */
+static bool is_playable(const hci_playable *playable, const hci_operating_point *at)
+{
+    const hci_next_point x = {.id_A = at->id_A, .iq_A = at->iq_A, .speed_rad_per_s = at->speed_rad_per_s};
+    hci_operating_point point[HCI_OPERATING_POINTS];
+    const size_t count = hci_operating_points(playable, point);
+    for (size_t k = 0; k < count; ++k)
+        if (is_at(&x, &point[k])) return true;
+    return false;
+}
+
+/* The same point in the other direction: a run in one alone does not tell its friction from the zero of the
+ * sensor. false: there is no such row. */
+static bool way_back_add(const hci_playable *playable, const hci_next_point *there, hci_diagnosis *d)
+{
+    const hci_operating_point back = {there->id_A, there->iq_A, -there->speed_rad_per_s};
+    const double turns = there->turns;
+    hci_next_point *to = is_playable(playable, &back) ? row_of(d, playable, &back) : NULL;
+    if (!to) return false;
+    to->turns = fmax(to->turns, turns);
+    if (!to->why[0])
+        hci_words_say(&(hci_words){to->why, sizeof to->why},
+                      "the same back, which tells its friction from the zero of the torque sensor");
+    return true;
+}
+
+static void advice_of_open(const hci_open_point *x, const hci_next_point *p, bool both_ways, hci_diagnosis *d)
 {
     const hci_words w = {d->advice, sizeof d->advice};
     if (!advice_begin(d)) return;
@@ -412,7 +438,7 @@ static void advice_of_open(const hci_open_point *x, const hci_next_point *p, hci
     else
         hci_words_say(&w, "what these currents do not show: ");
     advice_of_point(d, p);
-    hci_words_say(&w, " would tell (χ² %.3g)", x->chi_square);
+    hci_words_say(&w, "%s would tell (χ² %.3g)", both_ways ? ", forward and back," : "", x->chi_square);
 }
 
 hci_status hci_next_points_left_open(const hci_regression *e, const hci_machine_data *machine,
@@ -430,6 +456,6 @@ hci_status hci_next_points_left_open(const hci_regression *e, const hci_machine_
     if (!to) return HCI_OK;
     to->chi_square += open.chi_square;
     words_of_open(&open, to);
-    advice_of_open(&open, to, d);
+    advice_of_open(&open, to, way_back_add(&playable, to, d), d);
     return HCI_OK;
 }

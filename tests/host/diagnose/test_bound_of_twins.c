@@ -178,7 +178,11 @@ static void test_told_apart(void)
     diagnose_without_id();
     error_at(-2.0, 6.0, 0.2);
     const double before_Nm = expected.error_peak_to_peak_Nm;
-    TEST_ASSERT_EQUAL_UINT(1, diagnosis.next_points);
+    TEST_ASSERT_EQUAL_UINT(2, diagnosis.next_points); /* there and back, so that its friction is told too */
+    TEST_ASSERT_EQUAL_DOUBLE(diagnosis.next[0].id_A, diagnosis.next[1].id_A);
+    TEST_ASSERT_EQUAL_DOUBLE(diagnosis.next[0].iq_A, diagnosis.next[1].iq_A);
+    TEST_ASSERT_EQUAL_DOUBLE(diagnosis.next[0].speed_rad_per_s, -diagnosis.next[1].speed_rad_per_s);
+    TEST_ASSERT_EQUAL_DOUBLE(diagnosis.next[0].turns, diagnosis.next[1].turns);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(diagnosis.next[0].why, "back_emf sine_5"), diagnosis.next[0].why);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(diagnosis.next[0].why, "back_emf sine_7"), diagnosis.next[0].why);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(diagnosis.advice, "in part: 10 turns at"), diagnosis.advice);

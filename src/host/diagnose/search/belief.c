@@ -222,8 +222,8 @@ static bool shorten(hci_candidates *candidates, const hci_effect_type *type)
 }
 
 /* Beside what a search that ended early has not found a law of friction may fall with the speed for that
- * alone, and brakes all the same with fewer powers of it. kept: out, whether it is in the model with those.
- */
+ * alone, and for what else is in a mean where a speed was turned in one direction alone; it brakes all the
+ * same with fewer powers of it. kept: out, whether it is in the model with those. */
 static hci_status fewer_powers_try(hci_search *s, hci_fitted_model *model, const hci_effect_type *type,
                                    bool *kept, hci_note *note)
 {
@@ -261,7 +261,8 @@ static hci_status unnatural_leave(hci_search *s, hci_fitted_model *model, const 
 {
     bool kept = false;
     hci_status status = HCI_OK;
-    if (s->ended == HCI_WORK_LIMITED) status = fewer_powers_try(s, model, type, &kept, note);
+    if (s->ended == HCI_WORK_LIMITED || hci_brakes_hang_on_one_way(s->regression))
+        status = fewer_powers_try(s, model, type, &kept, note);
     if (status || kept) return status;
     status = disbelieve(s, model, type, 1.0, note);
     hci_candidates_remove_type(&model->candidates, type);

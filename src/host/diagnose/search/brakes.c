@@ -82,6 +82,35 @@ static bool is_driving(const hci_regression *e, const hci_effect *x)
     return -least_Nm > DRIVES * most_Nm;
 }
 
+/* Ratio of two paces that are one. */
+#define ONE_PACE 1.15
+
+/* Whether a recording in use turns in a direction at a pace. */
+static bool turns_so(const hci_regression *e, double pace_rad_per_s, int way)
+{
+    for (size_t r = 0; r < e->samples->run_count; ++r) {
+        const hci_run_statistics *x = &e->samples->statistics[r];
+        if (!(speed_of(e, r) > 0.0) ||
+            fmax(x->pace_rad_per_s, pace_rad_per_s) > ONE_PACE * fmin(x->pace_rad_per_s, pace_rad_per_s))
+            continue;
+        if (x->both_ways || way * x->mean_speed_rad_per_s > 0.0) return true;
+    }
+    return false;
+}
+
+bool hci_brakes_hang_on_one_way(const hci_regression *e)
+{
+    bool have_both = false, have_one = false;
+    for (size_t r = 0; r < e->samples->run_count; ++r) {
+        const double pace_rad_per_s = e->samples->statistics[r].pace_rad_per_s;
+        if (!(speed_of(e, r) > 0.0) || !(pace_rad_per_s > 0.0)) continue;
+        const bool is_both = turns_so(e, pace_rad_per_s, 1) && turns_so(e, pace_rad_per_s, -1);
+        have_both = have_both || is_both;
+        have_one = have_one || !is_both;
+    }
+    return have_both && have_one;
+}
+
 hci_status hci_brakes_find_driving(const hci_regression *e, const hci_candidates *candidates,
                                    const hci_effect_type **type, hci_note *note)
 {

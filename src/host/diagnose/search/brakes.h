@@ -17,6 +17,10 @@ hci_status hci_brakes_find_driving(const hci_regression *regression, const hci_c
 hci_status hci_brakes_drive(const hci_regression *regression, const hci_candidates *candidates,
                             const hci_effect_type *type, bool *drives, hci_note *note);
 
+/* Whether the recordings turn both ways at one pace, and one way alone at another: what brakes there is not
+ * told from a zero of the sensor, nor how it grows with the speed. */
+bool hci_brakes_hang_on_one_way(const hci_regression *regression);
+
 /* Whether the last term of a candidate is a further power of the speed in the law of a brake, which may go
  * alone. */
 bool hci_brakes_has_further_power(const hci_candidate *candidate);

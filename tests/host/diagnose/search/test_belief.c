@@ -200,6 +200,20 @@ static void test_where_the_search_ended_early_it_keeps_what_brakes(void)
     TEST_ASSERT_NULL(search.disbelieved.type);
 }
 
+/* One more run in one direction at another speed: that the law falls hangs on its mean, where any zero is,
+ * and what both directions of the others show stays. */
+static void test_what_hangs_on_one_direction_leaves_the_friction(void)
+{
+    record(SAMPLES, &(point){150.0, 2.0, 0.0, 0.1, 0.0});
+    record(SAMPLES, &(point){-150.0, 2.0, 0.0, -0.1, 0.0});
+    record(SAMPLES, &(point){60.0, 2.0, 0.0, 0.2, 0.0});
+    search_start();
+    model_add("friction", "coulomb", "viscous", 0.0);
+    keep_brakes();
+    TEST_ASSERT_TRUE(model_has("friction"));
+    TEST_ASSERT_EQUAL_UINT64(1, hci_candidates_terms_in(&model.candidates));
+}
+
 /* Nor, of a shaft that goes back and forth, any that drives. */
 static void test_nor_one_of_a_shaft_that_goes_back(void)
 {
@@ -336,6 +350,7 @@ int main(void)
     RUN_TEST(test_a_friction_that_drives_is_not);
     RUN_TEST(test_nor_one_that_falls_with_the_speed);
     RUN_TEST(test_where_the_search_ended_early_it_keeps_what_brakes);
+    RUN_TEST(test_what_hangs_on_one_direction_leaves_the_friction);
     RUN_TEST(test_nor_one_of_a_shaft_that_goes_back);
     RUN_TEST(test_one_that_grows_is);
     RUN_TEST(test_and_one_of_stribeck);
