@@ -351,15 +351,21 @@ static hci_status open_torque(cli_tuning *t, hci_note *note)
     return status;
 }
 
-/* A bound on the ripple is one of orders that were looked at. */
-static void leave_bound_out(hci_expected_ripple *e)
+static void leave_bound_out(hci_expected_ripple *e, hci_ripple_state why)
 {
     if (e->state != HCI_RIPPLE_KNOWN) return;
-    e->state = HCI_RIPPLE_UNTOLD;
+    e->state = why;
     e->peak_to_peak_Nm = e->T_ripple_percent = e->middle_percent = e->error_peak_to_peak_Nm = NAN;
     e->worst_order = e->worst_order_Nm = e->mean_Nm = e->mean_error_Nm = e->outside_share = e->outside_A =
         NAN;
     e->recordings = 0;
+}
+
+static bool has_torque_sensor(const cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count; ++k)
+        if (t->runs.run[k].torque_source == HCI_TORQUE_MEASURED) return true;
+    return false;
 }
 
 /* What was found stays, and no currents with it. */
@@ -457,6 +463,14 @@ static hci_status solve_within_reach(cli_tuning *t, hci_note *note)
     return status;
 }
 
+/* Of recordings without a torque sensor, which show no torque under load, a bound that is more than the
+ * ripple says no more than none, however many they are. */
+static void leave_void_bound_out(cli_tuning *t)
+{
+    if (!has_torque_sensor(t) && (cli_tune_is_boundless(t) || cli_tune_promises_nothing(t)))
+        leave_bound_out(&t->solution.expected, HCI_RIPPLE_UNLOADED);
+}
+
 /* The currents that were solved, for the report. */
 static hci_status write_solved(cli_tuning *t, hci_note *note)
 {
@@ -465,6 +479,7 @@ static hci_status write_solved(cli_tuning *t, hci_note *note)
     cli_tune_path(t, "target.csv", target);
     cli_tune_path(t, "currents", folder);
     t->is_solved = true;
+    leave_void_bound_out(t);
     t->solution.expected.if_in_time = cli_tune_hangs_on_lag(t);
     t->tuning.solution = &t->solution;
     return hci_solution_write_with_report(&t->corrected, &t->solution, t->tuning.solved,
@@ -478,7 +493,7 @@ hci_status cli_tune_solve(cli_tuning *t, hci_note *note)
     hci_status status = read_corrected(t, note);
     if (!status) status = solve_within_reach(t, note);
     if (status || !t->has_torque) return status;
-    if (cli_tune_is_coarse(t)) leave_bound_out(&t->solution.expected);
+    if (cli_tune_is_coarse(t)) leave_bound_out(&t->solution.expected, HCI_RIPPLE_UNTOLD);
     const bool without = is_out_of_reach(t);
     if (t->tuning.solved > HCI_NOT_REACHED && !without) return t->tuning.solved;
     if (without) note_out_of_reach(t, note);

@@ -27,7 +27,9 @@ const char *hci_ripple_state_words(hci_ripple_state state)
         "with more samples in an electrical turn",
         "Ripple not known: the diagnosis of this machine has not explained its recordings",
         "Ripple not known: what a load once or twice a turn makes with harmonics of the back-EMF is not told "
-        "from cogging torque; record it without that load"};
+        "from cogging torque; record it without that load",
+        "Ripple not known: no recording shows a torque under load; record three or more with a torque "
+        "sensor"};
     return WORDS[state];
 }
 

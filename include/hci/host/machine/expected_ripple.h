@@ -17,8 +17,10 @@ typedef enum {
     HCI_RIPPLE_UNTOLD,  /* the recordings tell of no order of the torque, or of the lowest alone, such as ones
                          * with a few samples in a turn */
     HCI_RIPPLE_UNEXPLAINED, /* the diagnosis that the machine comes from has not explained its recordings */
-    HCI_RIPPLE_SWAYED /* a load that turns with the shaft makes with the back-EMF what looks like cogging
-                         torque */
+    HCI_RIPPLE_SWAYED,  /* a load that turns with the shaft makes with the back-EMF what looks like cogging
+                           torque */
+    HCI_RIPPLE_UNLOADED /* no recording shows a torque under load, and what was found without bounds nothing
+                         */
 } hci_ripple_state;
 
 /* Why it is not known in words, "" where it is; a static string. */
