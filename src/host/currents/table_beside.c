@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "hci/host/machine/corrections.h"
 #include "hci/math/harmonic.h"
 
 /* ---- beside a sine */
@@ -102,15 +103,34 @@ static void harmonics_find(sums *x, hci_table_beside *to)
 
 /* ---- corrections */
 
-enum { MOST_EFFECTS = 32 };
+enum { MOST_EFFECTS = 32, MOST_TERMS = 128 };
 
-/* The effects of which a drive is told to correct its sensors. */
-static hci_effects corrected_in(const hci_effects *all, hci_effect kept[MOST_EFFECTS])
+/* What a drive is told to correct. */
+typedef struct {
+    hci_effect effect[MOST_EFFECTS];
+    hci_effect_term term[MOST_TERMS];
+    size_t effects, terms;
+} asked_corrections;
+
+static void asked_add(const hci_effect *effect, asked_corrections *to)
 {
-    hci_effects list = {kept, 0};
-    for (size_t k = 0; all && k < all->count && list.count < MOST_EFFECTS; ++k)
-        if (all->effect[k].type->correction) kept[list.count++] = all->effect[k];
-    return list;
+    hci_effect *as = &to->effect[to->effects];
+    *as = (hci_effect){.type = effect->type, .term = to->term + to->terms};
+    for (size_t k = 0; k < effect->count && to->terms < MOST_TERMS; ++k) {
+        if (!hci_correction_is_asked(effect->type, &effect->term[k])) continue;
+        to->term[to->terms++] = effect->term[k];
+        ++as->count;
+    }
+    to->effects += as->count > 0;
+}
+
+/* Of an effect with parts that a drive is not asked to correct the others alone. */
+static hci_effects asked_of(const hci_effects *all, asked_corrections *asked)
+{
+    asked->effects = asked->terms = 0;
+    for (size_t k = 0; all && k < all->count && asked->effects < MOST_EFFECTS; ++k)
+        asked_add(&all->effect[k], asked);
+    return (hci_effects){asked->effect, asked->effects};
 }
 
 /* The readings and what the drive makes of them, each less the table at its angle. */
@@ -141,8 +161,8 @@ static bool are_phases(const hci_run *run)
 static void corrections_find(const hci_currents *table, const hci_run *run, int pole_pairs,
                              const hci_effects *effects, hci_table_beside *to)
 {
-    hci_effect kept[MOST_EFFECTS];
-    const hci_effects sensors = corrected_in(effects, kept);
+    asked_corrections asked;
+    const hci_effects sensors = asked_of(effects, &asked);
     double rr = 0.0, rd = 0.0, dd = 0.0, raw[3], mended[3];
     to->corrected = to->corrected_error = (double)NAN;
     if (sensors.count == 0 || !are_phases(run)) return;

@@ -19,6 +19,13 @@ static void add_wave(hci_corrections *c, hci_effect_correction kind, const hci_e
                          .is_cosine = kind == HCI_CORRECT_ANGLE_COSINE || kind == HCI_CORRECT_TURN_COSINE};
 }
 
+bool hci_correction_is_asked(const hci_effect_type *type, const hci_effect_term *term)
+{
+    const hci_effect_correction kind =
+        type->correction ? type->correction[term->parameter] : HCI_CORRECT_NOTHING;
+    return kind != HCI_CORRECT_NOTHING && !(kind == HCI_CORRECT_ANGLE_DELAY && term->value < 0.0);
+}
+
 /* What terms of a kind add up in; NULL: they do not add up. */
 static double *sum_of(hci_corrections *c, hci_effect_correction kind, size_t parameter)
 {
@@ -46,8 +53,8 @@ static void take_term(hci_corrections *c, hci_effect_correction kind, const hci_
     else if (kind == HCI_CORRECT_CURRENT_GAIN)
         c->gain[term->parameter] /= 1.0 + term->value;
     else if (kind == HCI_CORRECT_ANGLE_DELAY)
-        c->angle_delay_s += fmax(0.0, term->value);
-    else if (kind != HCI_CORRECT_NOTHING)
+        c->angle_delay_s += term->value;
+    else
         add_wave(c, kind, term);
 }
 
@@ -56,7 +63,8 @@ static void take_type(const hci_effects *effects, const hci_effect_type *type, h
     for (size_t n = 0; n < effects->count && type->correction; ++n) {
         const hci_effect *e = &effects->effect[n];
         for (size_t k = 0; k < e->count && e->type == type; ++k)
-            take_term(c, type->correction[e->term[k].parameter], &e->term[k]);
+            if (hci_correction_is_asked(type, &e->term[k]))
+                take_term(c, type->correction[e->term[k].parameter], &e->term[k]);
     }
 }
 

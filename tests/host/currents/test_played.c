@@ -246,9 +246,33 @@ static void test_sensors_that_were_not_corrected(void)
     TEST_ASSERT_EQUAL_INT(HCI_PROMISE_KEPT, judge().promise); /* smooth all the same */
 }
 
+/* An angle that seems to be read before it is true is none that a drive is asked to correct: currents of a
+ * drive that has made what it was asked for are not called uncorrected for that. */
+static void test_an_angle_that_is_left_as_it_is(void)
+{
+    static double speed[COUNT];
+    const hci_effect_term delay = {1, 0.0, -0.015, 1e-4}, offset = {0, 0.0, 0.05, 1e-4};
+    const hci_effect effect[] = {{hci_effect_type_find("channel_delay"), &delay, 1},
+                                 {hci_effect_type_find("current_offset"), &offset, 1}};
+    const hci_effects list = {effect, 2};
+    TEST_ASSERT_EQUAL_STRING("angle", effect[0].type->parameter[delay.parameter].name);
+    effects = &list;
+    run.has_sum = true;
+    run.speed_rad_per_s = speed;
+    record(0.0, 1.0, 3, 0.04, 0.002);
+    for (size_t k = 0; k < run.count; ++k) {
+        speed[k] = 0.6;
+        current[3 * k] += 0.05;
+    }
+    const hci_played p = judge();
+    TEST_ASSERT_EQUAL_INT(HCI_PROMISE_NOT_KEPT, p.promise);
+    TEST_ASSERT_DOUBLE_WITHIN(4.0 * p.beside.corrected_error + 0.01, 1.0, p.beside.corrected);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_an_angle_that_is_left_as_it_is);
     RUN_TEST(test_a_load_beside_the_table);
     RUN_TEST(test_a_load_beside_others);
     RUN_TEST(test_sensors_that_were_not_corrected);

@@ -40,6 +40,10 @@ typedef struct {
     double current_filter_s;                   /* the same of their low pass */
 } hci_corrections;
 
+/* Whether a drive is asked to correct a term of an effect: of a torque sensor never, nor of an angle that
+ * seems to be read before it is true. */
+bool hci_correction_is_asked(const hci_effect_type *type, const hci_effect_term *term);
+
 /* What `effects` describe, each the inverse of its effect, to first order where an angle bends. Torque
  * sensors are none of a drive, and an angle that seems to be read before it is true is left as it is. */
 void hci_corrections_take(const hci_effects *effects, hci_corrections *corrections);
