@@ -138,7 +138,31 @@ static const hci_run_errors *errors_of(const hci_diagnosis *d, const char *file)
     return NULL;
 }
 
-/* Only noise is larger by chance where samples are few; and how large it is was found from as many. */
+static double beside_noise(double rms_Nm, double noise_Nm)
+{
+    return fmax(0.0, rms_Nm * rms_Nm - noise_Nm * noise_Nm);
+}
+
+/* Of the noise: more is left of no recording of a machine that explains them, but of one that disagreed. */
+#define DISAGREES 4.0
+
+/* What the machine of last time left, beside the noise, of a recording that it was fitted to: the most of
+ * those whose torque is known in the same way. It leaves no less of a new one. */
+static double left_before_Nm(const hci_again_question *q, const hci_diagnosis *then, hci_torque_source source)
+{
+    double most_Nm = 0.0;
+    for (size_t k = 0; k < q->recordings_before; ++k) {
+        const hci_run_errors *e = errors_of(then, q->runs->run[k].name);
+        if (!e || e->source != source || e->role != HCI_ROLE_FIT ||
+            e->rms_after_Nm > DISAGREES * e->noise_floor_Nm)
+            continue;
+        most_Nm = fmax(most_Nm, sqrt(beside_noise(e->rms_after_Nm, e->noise_floor_Nm)));
+    }
+    return most_Nm;
+}
+
+/* Only noise is larger by chance where samples are few; and how large it is was found from as many. open_Nm:
+ * what is stated beside the noise. */
 static hci_again_run run_of(const hci_run_errors *last, const hci_run_errors *now, double open_Nm)
 {
     const double above = last->rms_after_Nm > 0.0 ? last->after_high_Nm / last->rms_after_Nm - 1.0 : 0.0;
@@ -182,6 +206,7 @@ static hci_status runs_fill(const hci_again_question *q, const hci_dataset *b, c
         if (!e) continue;
         status = open_of(b, &last->uncertainty, k, &open_Nm, note);
         if (status) break;
+        open_Nm = hypot(open_Nm, left_before_Nm(q, d->then, e->source));
         a->run[a->runs] = run_of(e, errors_of(d->now, e->file), open_Nm);
         status = played_fill(q, k, last, a, &a->run[a->runs++], note);
     }
@@ -263,11 +288,6 @@ static hci_again_speaks speaks_of_balance(const balance *x)
 {
     if (fabs(x->evidence) < DECISIVE || fabs(x->change) < MATERIAL * x->excess) return HCI_AGAIN_SILENT;
     return x->change > 0.0 ? HCI_AGAIN_FOR : HCI_AGAIN_AGAINST;
-}
-
-static double beside_noise(double ripple_Nm, double noise_Nm)
-{
-    return fmax(0.0, ripple_Nm * ripple_Nm - noise_Nm * noise_Nm);
 }
 
 /* By ripple and mean, each beside what is left of it: what speaks for an effect in either keeps it from being

@@ -127,6 +127,37 @@ static void test_a_promise_is_not_kept(void)
     says("in 0 of 8: what was stated of the model does not hold");
 }
 
+static void offsets_shift(const hci_effects_data *data, double by_A)
+{
+    for (size_t k = 0; k < data->list.count; ++k) {
+        const hci_effect *e = &data->list.effect[k];
+        for (size_t j = 0; j < e->count && strcmp(e->type->name, "current_offset") == 0; ++j)
+            data->term[(size_t)(e->term - data->term) + j].value += by_A;
+    }
+}
+
+/* A machine that leaves something of the recordings that it was found from leaves as much of a new one, which
+ * is no word that was not kept. */
+static void test_what_was_left_before(void)
+{
+    hci_note note = {{0}};
+    record_offset();
+    diagnose(NULL);
+    offsets_shift(&diagnosis.effects, 0.06);
+    offsets_shift(&diagnosis.uncertainty.effects, 0.06);
+    TEST_ASSERT_EQUAL_INT(
+        HCI_OK, hci_diagnosis_write(&diagnosis, NULL, &runs, files_root, files_path("last"), &note));
+    play(0.0, 5.0, -60.0, 900);
+    next_round(4);
+    char text[96];
+    snprintf(text, sizeof text, "last %g, noise %g, bound %g N·m", again.last_Nm, again.noise_Nm,
+             again.bound_Nm);
+    TEST_ASSERT_TRUE_MESSAGE(again.last_Nm > 1.15 * again.noise_Nm && again.last_Nm < 2.0 * again.noise_Nm,
+                             text);
+    TEST_ASSERT_EQUAL_UINT64(1, again.bounded);
+    TEST_ASSERT_EQUAL_UINT64(1, again.kept);
+}
+
 /* Another last machine than the recordings speak for: an order of cogging that is not there, an offset that
  * is too small by five of its errors, and no friction. */
 static void test_what_new_recordings_contradict(void)
@@ -236,6 +267,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_a_promise_is_kept);
     RUN_TEST(test_a_promise_is_not_kept);
+    RUN_TEST(test_what_was_left_before);
     RUN_TEST(test_what_new_recordings_contradict);
     RUN_TEST(test_rounds_come_to_what_the_bench_resolves);
     RUN_TEST(test_out_of_memory);
