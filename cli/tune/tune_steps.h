@@ -82,6 +82,8 @@ typedef struct {
         mains_Hz;            /* an order found that is a multiple of 50 or 60 Hz at the one speed; 0: none */
     double cogging_known_Nm; /* to which its orders are known, peak to peak, by their noise alone (95 %); 0:
                                 not */
+    double folded_order, folded_from,
+        folded_Nm;  /* an order found, and one of slots and poles that the samples show as it; 0: none */
     double fast_Hz; /* the fastest of the larger orders by a torque sensor at one speed; 0: all are slow */
     double torque_to_sheet; /* torques of the recordings to those of the declared back-EMF, which check does
                              * not understand; 0: it does */

@@ -105,4 +105,25 @@ check "advice that was followed already" [ "$(grep -c '1.1 turns' hole/summary.j
 to_and_fro slower.csv 1.1 0.1 0 0.4
 run 0 tune slower.csv --pole-pairs 7 --kv 120 --slots 12 --inertia 1e-6 -o slower
 says '^tuned: ' '  order 12: 0\.02'
+
+# ---- as many samples in each turn, at the same places: order 24 of slots and poles goes through 140 of them as order 4 does, and not through 147.3
+
+at_places() { # NAME SAMPLES: of a turn; four recordings forward and back
+    for load in 0 1.5 3 5; do
+        awk -v n="$2" -v q="$load" 'function noise() { return rand() + rand() + rand() + rand() - 2 }
+            BEGIN { srand(3 + q); turn = 6.283185307179586; print "time_s,theta_m_rad,ia_A,ib_A,ic_A,torque_Nm"
+            for (way = 1; way >= -1; way -= 2) for (k = 0; k < 4 * n; ++k) { j = way > 0 ? k : 4 * n - k
+                x = 0.1 + j / n * turn; e = 5 * x; t = (way < 0 ? 90 : 0) + k / 14
+                printf "%.4f,%.7f,%.4f,%.4f,%.4f,%.5f\n", t, x, q * sin(e) + 0.005 * noise(), q * sin(e - turn / 3) + 0.005 * noise(),
+                    q * sin(e + turn / 3) + 0.005 * noise(), q * (0.82 + 0.02 * sin(6 * e + 0.3)) + 0.045 * sin(60 * x + 0.7) + 0.011 * sin(120 * x - 0.9) - 0.05 * way + 0.008 * noise() } }' >"$1_$load.csv"
+    done
+}
+at_places locked 140
+run 1 tune locked_0.csv locked_1.5.csv locked_3.csv locked_5.csv --pole-pairs 5 --slots 12 --torque-constant 0.82 --rated-current 5 -o locked
+says '^tuned, with something left open: A ripple of .* .if order 4 is not order 24, which these samples show as it. in the model' \
+    '^  - Order 4, 0\.011 N·m, may be order 24, .* up to 0\.04[0-9]* N·m from peak to peak'
+check "an order that may be another is known" [ "$(grep -c 'are known to' locked/summary.json)" -eq 0 ]
+at_places between 147.3
+run 0 tune between_0.csv between_1.5.csv between_3.csv between_5.csv --pole-pairs 5 --slots 12 --torque-constant 0.82 --rated-current 5 -o between
+check "orders that the samples tell apart" [ "$(grep -c 'which these samples show as it' between/summary.json)" -eq 0 ]
 finish

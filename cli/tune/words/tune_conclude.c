@@ -52,9 +52,9 @@ static bool is_sound(const cli_tuning *t)
     char words[512];
     return !cli_tune_say_sheet(t, words, sizeof words) && !t->has_doubt && !cli_tune_off_iq(t, &offset_deg) &&
            !cli_tune_is_without_angle(t) && !(cli_tune_strange_rpm(t) > 0.0) && !cli_tune_denied_inertia(t) &&
-           !cli_tune_is_short(t) && !(t->once_a_turn_Nm > 0.0) && cli_tune_clipped(t) == 0 &&
-           cli_tune_torque_clipped(t) == 0 && t->size == CLI_TUNE_USUAL && !(t->drives_Nm > 0.0) &&
-           !(fabs(t->turned_deg) > 0.0) && !(fabs(t->open_turn_deg) > 0.0) &&
+           !cli_tune_is_short(t) && !(t->once_a_turn_Nm > 0.0) && !(t->folded_Nm > 0.0) &&
+           cli_tune_clipped(t) == 0 && cli_tune_torque_clipped(t) == 0 && t->size == CLI_TUNE_USUAL &&
+           !(t->drives_Nm > 0.0) && !(fabs(t->turned_deg) > 0.0) && !(fabs(t->open_turn_deg) > 0.0) &&
            cli_tune_calculated_beside(t) == 0 && !cli_tune_is_late_at_one_pace(t);
 }
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "cli/tune/tune_facts.h"
+#include "cli/tune/tune_folded.h"
 #include "cli/tune/tune_known.h"
 #include "cli/tune/tune_line.h"
 #include "cli/tune/tune_recorded.h"
@@ -609,6 +610,16 @@ static double known_to_Nm(const order_sum *sum, size_t count)
     return isfinite(square) ? 2.0 * 2.0 * sqrt(square) : 0.0;
 }
 
+/* The largest order that the samples show alike with a higher one, which slots and poles make. */
+static void judge_folded(cli_tuning *t, const order_sum *sum, size_t count)
+{
+    for (size_t k = 0; k < count; ++k) {
+        const double size_Nm = hypot(sum[k].sine_Nm, sum[k].cosine_Nm);
+        const double from = size_Nm > t->folded_Nm ? cli_tune_folded_from(t, sum[k].order) : 0.0;
+        if (from > 0.0) t->folded_order = sum[k].order, t->folded_from = from, t->folded_Nm = size_Nm;
+    }
+}
+
 static void say_cogging(cli_tuning *t)
 {
     static order_sum sum[MOST_ORDERS];
@@ -617,6 +628,7 @@ static void say_cogging(cli_tuning *t)
     say_once_a_turn(t, sum, count);
     judge_slots(t, sum, count);
     judge_one_speed(t, sum, count);
+    judge_folded(t, sum, count);
     if (is_of_current(t)) say_offset(t, sum, count);
     if (t->cogging.kept == 0) return;
     hci_tuning_say(&t->tuning, HCI_TUNING_FOUND,

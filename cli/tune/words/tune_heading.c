@@ -128,12 +128,26 @@ static void say_doubtful(const cli_tuning *t, double before_Nm, char *text, size
             cli_tune_unexplained_Nm(t));
 }
 
+/* To what the orders of a model are known, as far as samples tell them; of one that may be another one it is
+ * said that they are not. */
+static void say_known(const cli_tuning *t, double after_Nm, char *text, size_t size)
+{
+    char low[CLI_TUNE_ORDER], high[CLI_TUNE_ORDER], reach[48] = "";
+    text[0] = '\0';
+    if (t->folded_Nm > 0.0)
+        snprintf(text, size, " (if order %s is not order %s, which these samples show as it)",
+                 cli_tune_order_words(t, t->folded_order, low),
+                 cli_tune_order_words(t, t->folded_from, high));
+    if (t->folded_Nm > 0.0 || !(t->cogging_known_Nm > after_Nm) || cli_tune_untold_inertia(t)) return;
+    if (cli_tune_is_coarse(t)) snprintf(reach, sizeof reach, " up to %.3g", t->highest_order);
+    snprintf(text, size, " (its orders%s are known to %.1g N·m)", reach, t->cogging_known_Nm);
+}
+
 /* What a model leaves is no better known than what it has. */
 static void say_of_model(const cli_tuning *t, double before_Nm, double after_Nm, char *text, size_t size)
 {
-    char known[64] = "";
-    if (t->cogging_known_Nm > after_Nm && !cli_tune_untold_inertia(t))
-        snprintf(known, sizeof known, " (its orders are known to %.1g N·m)", t->cogging_known_Nm);
+    char known[160];
+    say_known(t, after_Nm, known, sizeof known);
     snprintf(text, size, "A ripple of %.3g N·m from peak to peak %s %.3g N·m%s in the model; %s", before_Nm,
              becomes(before_Nm, after_Nm), after_Nm, known, not_known(t));
 }

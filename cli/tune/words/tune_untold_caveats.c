@@ -111,6 +111,21 @@ static void append_of_lag(cli_tuning *t)
         1e3 * late_s, late_Nm_per_s * late_s);
 }
 
+/* Of a wave that is another one the table makes as much again. */
+static void append_of_folded(cli_tuning *t)
+{
+    char low[CLI_TUNE_ORDER], high[CLI_TUNE_ORDER];
+    if (!(t->folded_Nm > 0.0) || !t->is_solved) return;
+    cli_tune_caveat(
+        t,
+        "Order %s, %.2g N·m, may be order %s, which slots and poles make and these samples show as "
+        "it, since each turn has them at the same places: the table then leaves that and makes as "
+        "much of order %s besides, up to %.2g N·m from peak to peak. More samples in a turn, or the same at "
+        "another speed, tell which",
+        cli_tune_order_words(t, t->folded_order, low), t->folded_Nm,
+        cli_tune_order_words(t, t->folded_from, high), low, 4.0 * t->folded_Nm);
+}
+
 /* What the recordings do not tell of the torque. */
 static void append_of_torque(cli_tuning *t)
 {
@@ -129,6 +144,7 @@ static void append_of_torque(cli_tuning *t)
     if (cli_tune_is_coarse(t) && t->is_solved && !(cli_tune_reach_of_slopes(t) > 0.0))
         cli_tune_caveat(t, "Orders above %.3g were not looked at, since the samples lie too far apart",
                         t->highest_order);
+    append_of_folded(t);
     append_of_scale(t);
     append_of_drag(t);
     append_of_constant(t);
