@@ -361,10 +361,14 @@ static void leave_bound_out(hci_expected_ripple *e, hci_ripple_state why)
     e->recordings = 0;
 }
 
-static bool has_torque_sensor(const cli_tuning *t)
+/* Whether a recording shows a torque under load: by a torque sensor, or by the current of a slow turn. */
+static bool shows_load(const cli_tuning *t)
 {
-    for (size_t k = 0; k < t->runs.count; ++k)
-        if (t->runs.run[k].torque_source == HCI_TORQUE_MEASURED) return true;
+    for (size_t k = 0; k < t->runs.count; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        if (r->torque_source == HCI_TORQUE_MEASURED) return true;
+        if (r->torque_source == HCI_TORQUE_HOLDING && hci_run_is_loaded(r, r->pole_pairs)) return true;
+    }
     return false;
 }
 
@@ -463,11 +467,11 @@ static hci_status solve_within_reach(cli_tuning *t, hci_note *note)
     return status;
 }
 
-/* Of recordings without a torque sensor, which show no torque under load, a bound that is more than the
- * ripple says no more than none, however many they are. */
+/* Of recordings that show no torque under load, a bound that is more than the torque says no more than none,
+ * however many they are. */
 static void leave_void_bound_out(cli_tuning *t)
 {
-    if (!has_torque_sensor(t) && (cli_tune_is_boundless(t) || cli_tune_promises_nothing(t)))
+    if (!shows_load(t) && cli_tune_is_boundless(t))
         leave_bound_out(&t->solution.expected, HCI_RIPPLE_UNLOADED);
 }
 
