@@ -359,14 +359,14 @@ static const hci_effect_term *mean_by_current(const hci_effect *e)
     return NULL;
 }
 
-/* A reluctance torque that nobody declared is no certainty as long as a scale does as well; where it is found
- * and explains the recordings, nothing is left of that. */
+/* A reluctance torque that nobody declared is no certainty as long as a scale does as well; where the
+ * machine has it by now and explains the recordings, nothing is left of that. */
 static void say_saliency(cli_tuning *t)
 {
+    const hci_effects *list = &t->diagnosis.effects.list;
     bool is_found = false;
-    for (size_t k = 0; k < t->diagnosis.findings; ++k)
-        is_found = is_found || (t->diagnosis.finding[k].verdict == HCI_FINDING_ADDED &&
-                                mean_by_current(effect_of(t, &t->diagnosis.finding[k])));
+    for (size_t k = 0; k < list->count; ++k)
+        is_found = is_found || mean_by_current(&list->effect[k]) != NULL;
     if (!*t->saliency || (is_found && t->diagnosis.verdict <= HCI_DIAGNOSIS_EXPLAINED)) return;
     hci_tuning_say(&t->tuning, HCI_TUNING_UNKNOWN, "%s; %s declare it", t->saliency,
                    t->is_own ? "--inductance-d and --inductance-q"
