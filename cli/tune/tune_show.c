@@ -25,6 +25,18 @@ static void show_part(const hci_tuning *t, hci_tuning_part part)
     }
 }
 
+#define OTHER_MEAN 0.005 /* of the mean torque, that a plain sine is off by and that is shown */
+
+/* The plain sine is that of the back-EMF alone: reluctance and saturation make its torque another one. */
+static void show_means(const cli_tuning *t)
+{
+    const hci_solution *s = &t->solution;
+    if (s->order_count == 0 || s->order[0].torque_Nm.order > HCI_ORDER_TOLERANCE) return;
+    const double before_Nm = s->order[0].before_Nm.cosine, after_Nm = s->order[0].torque_Nm.cosine;
+    if (fabs(before_Nm - after_Nm) > OTHER_MEAN * fabs(after_Nm))
+        cli_say("  mean torque in the model, N·m%8.4g   %14.4g\n", before_Nm, after_Nm);
+}
+
 static void show_before_and_after(const cli_tuning *t)
 {
     const hci_solution *s = &t->solution;
@@ -50,6 +62,7 @@ static void show_before_and_after(const cli_tuning *t)
             s->plain_amplitude_A, s->peak_phase_current_A);
     if (isfinite(s->loss_to_plain))
         cli_say("  copper loss, to the sine    %10d   %14.4g   the same\n", 1, s->loss_to_plain);
+    show_means(t);
 }
 
 /* As they can be typed: the folder by its name. */

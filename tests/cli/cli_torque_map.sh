@@ -44,7 +44,7 @@ printf 'file,role\n%s,fit\n' "$source_dir/data/fem_c/runs/id-3_iq6.csv" >"$work/
 check "--again: not 11 recordings" [ "$(sed 1d "$work/second/errors.csv" | wc -l)" = 11 ]
 
 # tune: one line for the file, and the log as it was given in the call of check.
-"$hci_solve" tune "$work/map.csv" --pole-pairs 2 --torque-constant 1.338 --rated-current 8 --work 0.05 -o "$work/tuned" >"$work/tuned.out" 2>&1
+"$hci_solve" tune "$work/map.csv" --pole-pairs 2 --torque-constant 1.338 --rated-current 8 --torque 10 --work 0.05 -o "$work/tuned" >"$work/tuned.out" 2>&1
 check "tune: exit code $?" [ -s "$work/tuned/commands.sh" ]
 check "tune: the map is not read as one file" [ "$(grep -c 'samples at each operating point' "$work/tuned.out")" = 1 ]
 tr -s '[:space:]' ' ' <"$work/tuned.out" >"$work/tuned.words"
@@ -52,6 +52,10 @@ check "tune: what is to be calculated" grep -q 'To be calculated, each over an e
 for words in 'On the bench' 'turns forward' 'turns at' 'The sensors of the drive' 'does not declare is in the torques'; do
     check "tune: $words" [ "$(grep -c "$words" "$work/tuned.words")" = 0 ]
 done
+# The sine is that of the back-EMF: what reluctance adds to its torque is shown.
+sine=$(sed -n 's/^  mean torque in the model, N·m *\([0-9.]*\) .*/\1/p' "$work/tuned.out")
+of_json=$(sed -n 's/.*"mean_Nm":[[:space:]]*\([0-9.]*\).*/\1/p' "$work/tuned/summary.json" | head -1)
+check "tune: mean torque of the sine ${sine:-not shown}, $of_json" awk -v x="${sine:-0}" -v y="$of_json" 'BEGIN { exit !(x > 10.01 && x - y < 0.006 && y - x < 0.006) }'
 check "tune: not one row in its list" [ "$(wc -l <"$work/tuned/runs.csv")" = 2 ]
 
 # Beside a log over time no promise is made: both need not be of one machine.

@@ -120,6 +120,7 @@ static void put_solution(hci_json *json, const hci_tuning *t)
     hci_tuning_swing(s, &before_Nm, &after_Nm);
     if (!hci_tuning_knows_ripple(s)) before_Nm = after_Nm = (double)NAN;
     hci_json_object(json, "before");
+    hci_json_number(json, "mean_Nm", s->order_count ? s->order[0].before_Nm.cosine : (double)NAN);
     hci_json_number(json, "peak_phase_A", s->plain_amplitude_A);
     hci_json_number(json, "peak_to_peak_Nm", before_Nm);
     hci_json_close(json);
