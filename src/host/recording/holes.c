@@ -11,6 +11,7 @@
 #include "host/csv/table.h"
 #include "host/numeric/statistics.h"
 #include "host/recording/line_rows.h"
+#include "host/recording/zero_voltages.h"
 
 typedef struct {
     hci_run_columns *c;
@@ -671,6 +672,7 @@ static hci_status leave_holes_out(hci_run_columns *c)
     if (!status) status = conclude(&t);
     hci_memory_free(t.is_left);
     if (!status) status = hci_line_rows_take(c);
+    if (!status) hci_zero_voltages_leave(c);
     return status;
 }
 
