@@ -27,10 +27,18 @@ static void say_share(const check_data *data, const check_run *odd, hci_check_fi
                  all, hci_check_name_of(odd->path));
 }
 
+/* Of a unit without an exponent. */
+static void say_gain(double gain, char text[12])
+{
+    snprintf(text, 12, fabs(gain) < 100.0 || fabs(gain) > 1e9 ? "%.3g" : "%.0f", gain);
+}
+
 static void say_odd(const check_run *r, hci_check_finding *f)
 {
     const int odd = r->channel.phase;
     const char a = PHASE[(odd + 1) % 3], b = PHASE[(odd + 2) % 3], x = PHASE[odd];
+    char gain[12];
+    say_gain(r->channel.gain, gain);
     if (r->channel.state == CHECK_CHANNEL_DEAD)
         snprintf(f->words, sizeof f->words,
                  "the current of phase %c reads nothing, where %c and %c do not sum to 0", x, a, b);
@@ -41,25 +49,26 @@ static void say_odd(const check_run *r, hci_check_finding *f)
             "way round",
             x, a, b);
     else
-        snprintf(
-            f->words, sizeof f->words,
-            "the current of phase %c reads %.3g times what those of %c and %c leave for it: the range or "
-            "unit of its probe",
-            x, r->channel.gain, a, b);
+        snprintf(f->words, sizeof f->words,
+                 "the current of phase %c reads %s times what those of %c and %c leave for it: the range or "
+                 "unit of its probe",
+                 x, gain, a, b);
 }
 
 static void say_remedy(const check_run *r, hci_check_finding *f)
 {
     const int odd = r->channel.phase;
     const char x = PHASE[odd];
+    char gain[12];
+    say_gain(r->channel.gain, gain);
     if (r->channel.state == CHECK_CHANNEL_DEAD)
         snprintf(f->should_be, sizeof f->should_be, "left out, as it is 0 less the two others");
     else if (fabs(r->channel.gain + 1.0) < A_SIGN)
         snprintf(f->should_be, sizeof f->should_be, "with the opposite sign: --column 'i%c=-%.60s'", x,
                  f->column);
     else
-        snprintf(f->should_be, sizeof f->should_be, "divided by %.3g: --column 'i%c=%.60s/%.3g'",
-                 r->channel.gain, x, f->column, r->channel.gain);
+        snprintf(f->should_be, sizeof f->should_be, "divided by %s: --column 'i%c=%.60s/%s'", gain, x,
+                 f->column, gain);
 }
 
 static void say_twins(const check_run *r, hci_check_finding *f)

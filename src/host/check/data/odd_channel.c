@@ -13,6 +13,10 @@
 /* A channel with less than this share of the others reads nothing. */
 #define NOTHING 0.02
 
+/* Times, by which two channels of one machine differ at most: where they do more, the larger one is odd, and
+ * what is little beside it reads what it should. */
+#define LIKE 5.0
+
 /* Two columns that differ by less than this share hold the same. */
 #define THE_SAME 0.1
 
@@ -67,8 +71,9 @@ static double gain_of(double gram[3][3], int phase)
 
 static bool is_nothing(double gram[3][3], int phase)
 {
-    const double others = gram[(phase + 1) % 3][(phase + 1) % 3] + gram[(phase + 2) % 3][(phase + 2) % 3];
-    return gram[phase][phase] < NOTHING * NOTHING * 0.5 * others;
+    const double a = gram[(phase + 1) % 3][(phase + 1) % 3], b = gram[(phase + 2) % 3][(phase + 2) % 3];
+    const bool are_like = a < LIKE * LIKE * b && b < LIKE * LIKE * a;
+    return are_like && gram[phase][phase] < NOTHING * NOTHING * 0.5 * (a + b);
 }
 
 /* The two others than `phase`, unless they share the way back of its current: then it is a multiple of their
