@@ -295,8 +295,9 @@ static void judge_ambiguous(cli_tuning *t, const hci_check *c)
     for (size_t k = 0; k < c->findings; ++k) {
         const hci_check_finding *f = &c->finding[k];
         if (is_excluded(t, f->slip)) continue;
-        append(t, "%s%s (%s %%)", told_by ? ", or " : ": ", f->words,
-               HCI_PERCENT(100.0 * probability_of(t, c, f), 2));
+        const char *column = strstr(f->should_be, "--column");
+        append(t, "%s%s (%s %%%s%.100s)", told_by ? ", or " : ": ", f->words,
+               HCI_PERCENT(100.0 * probability_of(t, c, f), 2), column ? ": " : "", column ? column : "");
         others -= probability_of(t, c, f);
         if (!told_by) told_by = not_given(t, f->told_by);
     }

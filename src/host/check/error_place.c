@@ -6,6 +6,7 @@
 
 #include "host/base/unit_lookup.h"
 #include "host/check/relations/run_zero.h"
+#include "host/recording/run_columns.h"
 
 /* Their texts are copied. */
 typedef char
@@ -46,7 +47,7 @@ static const check_place *run_place(const check_data *data, int where)
             place = &r->voltage_cell;
         if (where == CHECK_AT_TORQUE && r->has_torque) place = &r->torque_cell;
         if (where == CHECK_AT_SPEED || where == CHECK_AT_SPEED_SIGN ||
-            (where == CHECK_AT_SPEED_M && !r->speed_is_electrical))
+            where == (r->speed_is_electrical ? CHECK_AT_SPEED_E : CHECK_AT_SPEED_M))
             place = &r->speed_cell;
         if (where == CHECK_AT_TIME) place = &r->time_cell;
         if (place && place->path) return place;
@@ -336,11 +337,38 @@ static const char *unit_of_gear(double turns, const char *column)
     return NULL;
 }
 
+/* Counts of an encoder are known to the last digit, and what the currents tell of them nearly so. */
+#define COUNTED 0.003
+
+enum { LEAST_COUNTS = 256 };
+
+/* Counts of a turn that the gear would be; 0: of no encoder. */
+static double counts_of_gear(double turns, const check_place *place)
+{
+    const double found = 2.0 * HCI_PI / (place->factor * turns),
+                 usual = found >= LEAST_COUNTS ? hci_usual_counts(found) : 0.0;
+    return usual > 0.0 && fabs(found / usual - 1.0) < COUNTED ? usual : 0.0;
+}
+
+/* "… is in counts of an encoder, 4096 in a turn, …, or of a shaft behind a gear of 11.4" */
+static void say_counts_of_gear(double counts, double turns, const check_place *place,
+                               hci_check_finding *finding)
+{
+    snprintf(
+        finding->words, sizeof finding->words,
+        "the angle of the recordings is in counts of an encoder, %.0f in a turn, whatever the name of its "
+        "column says, or of a shaft behind a gear of %.3g",
+        counts, 1.0 / turns);
+    snprintf(finding->should_be, sizeof finding->should_be, "in counts: --column 'theta_m=%.60s/%.0f'",
+             place->column, counts);
+}
+
 /* An angle in gon under a name of degrees: "… is in gon, or of a shaft behind a gear of 0.9". */
 static void say_unit_of_gear(const check_data *data, const check_place *place, hci_check_finding *finding)
 {
-    const double turns = gear_of(data);
+    const double turns = gear_of(data), counts = counts_of_gear(turns, place);
     const char *unit = unit_of_gear(turns, place->column);
+    if (!unit && counts > 0.0) say_counts_of_gear(counts, turns, place, finding);
     if (!unit) return;
     snprintf(
         finding->words, sizeof finding->words,
@@ -480,6 +508,8 @@ static void say_column(const check_error *error, const check_data *data, const c
                  given_as(data, place));
     if (error->where == CHECK_AT_SPEED_M)
         snprintf(text, size, "%s: --column 'speed_e=%.60s'", error->should_be, given_as(data, place));
+    if (error->where == CHECK_AT_SPEED_E)
+        snprintf(text, size, "%s: --column 'speed=%.60s'", error->should_be, given_as(data, place));
     if (strcmp(error->name, "current_rms") == 0 || strcmp(error->name, "current_dq_rms") == 0)
         snprintf(text, size, "%.40s: --column '%s_Arms=%.40s', and so of each", error->should_be,
                  current_of(data, place), given_as(data, place));

@@ -203,8 +203,7 @@ void hci_run_columns_say_angle(const hci_run_columns *c, hci_note *missing)
 /* Parts of the recording that each tell them. */
 enum { COUNT_PARTS = 100 };
 
-/* Counts that encoders have: powers of two, and round decimal ones; 0: not near one. */
-static double usual_counts(double found)
+double hci_usual_counts(double found)
 {
     const double binary = exp2(round(log2(found)));
     const double decade = pow(10.0, floor(log10(found))),
@@ -236,7 +235,7 @@ static double counts_of_turn(const double *counts, const double *theta_m_rad, si
         if (fabs(turned_rad) > 0.0) part[parts++] = 2.0 * HCI_PI * (counts[to] - counts[from]) / turned_rad;
     }
     const double found = parts > 0 ? fabs(hci_median(part, parts)) : 0.0;
-    return found > 1.0 && !is_wrapped_over(counts, n, (1.0 + NEAR) * found) ? usual_counts(found) : 0.0;
+    return found > 1.0 && !is_wrapped_over(counts, n, (1.0 + NEAR) * found) ? hci_usual_counts(found) : 0.0;
 }
 
 hci_status hci_run_columns_angle_like(const hci_run_columns *c, const double *theta_m_rad,

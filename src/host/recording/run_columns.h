@@ -80,6 +80,10 @@ void hci_run_columns_say_angle(const hci_run_columns *c, hci_note *missing);
 hci_status hci_run_columns_angle_like(const hci_run_columns *c, const double *theta_m_rad,
                                       char text[HCI_RUN_NAME]);
 
+/* The counts of a turn nearest to a number that encoders have, powers of two and round decimal ones; 0: it is
+ * not within 5 % of one. */
+double hci_usual_counts(double found);
+
 /* So, for who can do without angle and voltages: any column that is known will do. */
 hci_status hci_run_columns_find_any(const hci_csv *csv, hci_run_columns *c, hci_note *remark, hci_note *note);
 void hci_run_columns_release(hci_run_columns *c);

@@ -697,6 +697,7 @@ MISTAKE(kilogram_centimetre, x->torque_Nm *= 10.1972)
 MISTAKE(microseconds, x->time_s *= 1e6)
 MISTAKE(behind_a_gear, x->theta *= 5.0)
 MISTAKE(turns, x->theta /= 2.0 * REF_PI)
+MISTAKE(counts, x->theta = floor(x->theta / (2.0 * REF_PI) * 4096.0))
 
 static void test_slips_of_recordings(void)
 {
@@ -755,6 +756,40 @@ static void test_mechanical_angle_under_electrical_name(void)
     TEST_ASSERT_EQUAL_STRING("theta_m: --column 'theta_m=theta_e_rad'", check.finding[0].should_be);
 }
 
+static void test_counts_under_a_name_of_degrees(void)
+{
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    check_runs("time_s,theta_m_deg,speed_rad_per_s,ia_A,ib_A,ic_A,va_V,vb_V,vc_V,torque_Nm", counts, true);
+    expect_only("angle_geared");
+    TEST_ASSERT_NOT_NULL_MESSAGE(
+        strstr(check.finding[0].words, "in counts of an encoder, 4096 in a turn, whatever the name"),
+        check.finding[0].words);
+    TEST_ASSERT_EQUAL_STRING("in counts: --column 'theta_m=theta_m_deg/4096'", check.finding[0].should_be);
+}
+
+static bool has_finding(const char *slip)
+{
+    for (size_t k = 0; k < check.findings; ++k)
+        if (strcmp(check.finding[k].slip, slip) == 0) return true;
+    return false;
+}
+
+/* `erpm` of a drive that writes the speed of the shaft there: beside the angle of phase currents it is the
+ * speed, and beside i_d and i_q alone the angle may be it as well. */
+static void test_mechanical_speed_under_electrical_name(void)
+{
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    check_runs("time_s,theta_m_rad,speed_e_rad_per_s,ia_A,ib_A,ic_A,va_V,vb_V,vc_V,torque_Nm", none, true);
+    expect_only("speed_mechanical");
+    TEST_ASSERT_EQUAL_STRING("the mechanical speed: --column 'speed=speed_e_rad_per_s'",
+                             check.finding[0].should_be);
+    remove_files();
+    write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+    check_runs("time_s,theta_m_rad,speed_e_rad_per_s,,,,,,,torque_Nm", none, true);
+    TEST_ASSERT_EQUAL(HCI_CHECK_AMBIGUOUS, check.verdict);
+    TEST_ASSERT_TRUE(has_finding("speed_mechanical") && has_finding("theta_electrical_for_mechanical"));
+}
+
 /* ---- what recordings prove by themselves */
 
 static const char EMF_ALONE[] = "name,value,unit,source\npole_pairs,4,1,\n";
@@ -764,6 +799,7 @@ static const char NO_VOLTAGES[] = "time_s,theta_m_rad,speed_rad_per_s,ia_A,ib_A,
 MISTAKE(clamp_b_reversed, x->i[1] = -x->i[1])
 MISTAKE(clamps_c_and_a_reversed, x->i[0] = -x->i[0]; x->i[2] = -x->i[2])
 MISTAKE(probe_a_of_ten, x->i[0] *= 10.0)
+MISTAKE(probe_a_in_milliampere, x->i[0] *= 1000.0)
 MISTAKE(channel_c_dead, x->i[2] = 0.0)
 MISTAKE(channels_alike, x->i[2] = x->i[0])
 
@@ -777,6 +813,7 @@ static void test_a_channel_that_is_not_as_the_others(void)
         {clamp_b_reversed, "phase b has the other sign", "--column 'ib=-ib_A'", 1},
         {clamps_c_and_a_reversed, "phase b has the other sign", "--column 'ib=-ib_A'", 2},
         {probe_a_of_ten, "phase a reads 10 times", "--column 'ia=ia_A/10'", 1},
+        {probe_a_in_milliampere, "phase a reads 1000 times", "--column 'ia=ia_A/1000'", 1},
         {channel_c_dead, "phase c reads nothing", "left out", 1},
         {channels_alike, "phases c and a are the same", "of its own phase", 1},
     };
@@ -904,13 +941,6 @@ static void test_one_number_for_torque(void)
 {
     check_five(one_torque, one_torque);
     TEST_ASSERT_EQUAL(0, check.findings);
-}
-
-static bool has_finding(const char *slip)
-{
-    for (size_t k = 0; k < check.findings; ++k)
-        if (strcmp(check.finding[k].slip, slip) == 0) return true;
-    return false;
 }
 
 /* In another unit, or in one of the recordings, it answers. */
@@ -1649,6 +1679,8 @@ int main(void)
     RUN_TEST(test_the_mean_of_a_clipped_torque_is_none);
     RUN_TEST(test_friction_tells_the_sign_of_the_torque);
     RUN_TEST(test_mechanical_angle_under_electrical_name);
+    RUN_TEST(test_counts_under_a_name_of_degrees);
+    RUN_TEST(test_mechanical_speed_under_electrical_name);
     RUN_TEST(test_slips_of_dq_currents);
     RUN_TEST(test_the_log_of_a_drive);
     RUN_TEST(test_slips_in_the_log_of_a_drive);

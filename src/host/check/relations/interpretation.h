@@ -55,6 +55,7 @@ typedef struct {
     double voltage_is_line;                    /* 1: va, vb, vc hold v_ab, v_bc, v_ca */
     double torque, speed;                      /* factors */
     double speed_electrical;                   /* 1: so */
+    double speed_mechanical;                   /* 1: so, of a column of an electrical speed */
     double speed_unsigned;                     /* 1: so; its sign is that of the angle */
     double time;                               /* factor */
 } check_interpretation;

@@ -26,7 +26,8 @@ double hci_check_angle_speed_of(const check_run *r, const check_interpretation *
 /* Mechanical speed per what stands in the column. */
 static double column_speed(const check_run *r, const check_interpretation *as, const check_model *m)
 {
-    const bool is_electrical = r->speed_is_electrical || as->speed_electrical > 0.0;
+    const bool is_electrical =
+        r->speed_is_electrical ? !(as->speed_mechanical > 0.0) : as->speed_electrical > 0.0;
     const double sign = as->speed_unsigned > 0.0 && r->angle_rate * as->direction < 0.0 ? -1.0 : 1.0;
     return sign * as->speed / (is_electrical ? m->pole_pairs : 1.0);
 }
