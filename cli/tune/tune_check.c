@@ -120,6 +120,8 @@ static void take_slip(cli_tuning *t, const hci_check *c, const hci_check_finding
     append(t, "), so nothing was solved");
     t->slip_is_of_unit = is_of_unit(f->slip);
     t->slip_is_of_frame = !is_of_size(f->slip);
+    const char *column = strstr(f->should_be, "--column");
+    if (!t->slip_is_of_unit && column) append(t, ": %.120s", column);
     if (t->slip_is_of_unit)
         append(t, ": for %.100s, %.300s; where one log alone has it so, in the header of that", f->found,
                f->should_be);

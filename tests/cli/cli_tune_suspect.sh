@@ -293,7 +293,7 @@ for log in two three; do
     awk -F, -v OFS=, -v i="$log" 'NR == 1 { print "time_s,theta_m_rad,id_A,iq_A,torque_Nm"; next } { print $1, $2, (i == "two" ? 2 : 3), 0.01 * sin($2), $6 }' $log.csv >dq_$log.csv
 done
 run 1 tune dq_two.csv dq_three.csv --pole-pairs 4 --kv 18.38 -o point
-says '^a convention is broken: The currents of the loads lie along i_d and not along i_q, .*: the two columns are exchanged'
+says "^a convention is broken: Most likely the torque in dq_.*\.csv goes with i_d .id_A.*: each is in the other.s place.*: --column 'iq=id_A' --column 'id=iq_A'$"
 check "a column in another unit is said beside it" [ "$(grep -c 'magnets of no motor' stdout)" = 0 ]
 run 3 tune dq_two.csv --pole-pairs 4 --kv 18.38 --column 'torque=torque_Nm*0.2' -o point
 says 'found a column times 0.2, expected one divided by a number: torque=torque_Nm/5'

@@ -790,6 +790,68 @@ static void test_mechanical_speed_under_electrical_name(void)
     TEST_ASSERT_TRUE(has_finding("speed_mechanical") && has_finding("theta_electrical_for_mechanical"));
 }
 
+/* ---- i_d and i_q in each other's column */
+
+/* Two turns forward and back at 2 rad/s without a torque sensor: 0.4 A overcome friction and 0.2 A cogging
+ * torque, both as i_q, beside an i_d of steady_A and noise. */
+static void write_slow_turn(const char *name, const char *header, double steady_A)
+{
+    char text[64 * 4 * SAMPLES];
+    size_t used = (size_t)snprintf(text, sizeof text, "%s\n", header);
+    for (int k = 0; k < 4 * SAMPLES; ++k) {
+        const double time_s = 4.0 * REF_PI * k / (4 * SAMPLES), way = k < 2 * SAMPLES ? 1.0 : -1.0,
+                     theta = 2.0 * (k < 2 * SAMPLES ? time_s : 4.0 * REF_PI - time_s);
+        used +=
+            (size_t)snprintf(text + used, sizeof text - used, "%.6f,%.6f,%.1f,%.5f,%.5f\n", time_s, theta,
+                             2.0 * way, 0.4 * way + 0.2 * sin(24.0 * theta), steady_A + 0.05 * sin(1e5 * k));
+    }
+    write_file(name, text);
+}
+
+static void test_currents_of_a_slow_turn_exchanged(void)
+{
+    static const struct {
+        const char *header;
+        double steady_A;
+        bool is_exchanged;
+    } CASES[] = {{"time_s,theta_m_rad,speed_rad_per_s,iq_A,id_A", 0.0, false},
+                 {"time_s,theta_m_rad,speed_rad_per_s,id_A,iq_A", 0.0, true},
+                 {"time_s,theta_m_rad,,id_A,iq_A", 0.0, true},
+                 /* a drive that keeps an i_d: friction is in i_q */
+                 {"time_s,theta_m_rad,speed_rad_per_s,iq_A,id_A", 5.0, false}};
+    for (size_t k = 0; k < sizeof CASES / sizeof *CASES; ++k) {
+        const char *run[1];
+        write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+        run[0] = path[paths];
+        write_slow_turn("slow.csv", CASES[k].header, CASES[k].steady_A);
+        hci_check_files(files_root, run, 1, &(hci_run_options){0}, &check, &note);
+        TEST_ASSERT_EQUAL_MESSAGE(CASES[k].is_exchanged, has_finding("currents_dq_exchanged"), note.text);
+        if (CASES[k].is_exchanged)
+            TEST_ASSERT_EQUAL_STRING("--column 'iq=id_A' --column 'id=iq_A'", check.finding[0].should_be);
+        remove_files();
+    }
+}
+
+/* Loads on a torque sensor at i_q, or at an i_d that makes their torque as i_q would. */
+static void test_currents_of_loads_exchanged(void)
+{
+    for (int is_exchanged = 0; is_exchanged < 2; ++is_exchanged) {
+        write_machine(MACHINE, "amplitude_Nm_per_A", 0.1, 0.0);
+        char text[64 * SAMPLES];
+        const char *run[1] = {path[paths]};
+        size_t used = (size_t)snprintf(text, sizeof text, "time_s,theta_m_rad,speed_rad_per_s,%s,torque_Nm\n",
+                                       is_exchanged ? "id_A,iq_A" : "iq_A,id_A");
+        for (int k = 0; k < SAMPLES; ++k)
+            used += (size_t)snprintf(text + used, sizeof text - used, "%.6f,%.6f,10,%.5f,%.5f,%.5f\n",
+                                     2.0 * REF_PI / 10.0 * k / SAMPLES, 2.0 * REF_PI * k / SAMPLES, 6.0,
+                                     0.02 * sin(1e5 * k), 0.9 + 0.02 * sin(24.0 * k));
+        write_file("load.csv", text);
+        hci_check_files(files_root, run, 1, &(hci_run_options){0}, &check, &note);
+        TEST_ASSERT_EQUAL_MESSAGE(is_exchanged, has_finding("currents_dq_exchanged"), note.text);
+        remove_files();
+    }
+}
+
 /* ---- what recordings prove by themselves */
 
 static const char EMF_ALONE[] = "name,value,unit,source\npole_pairs,4,1,\n";
@@ -1680,6 +1742,8 @@ int main(void)
     RUN_TEST(test_friction_tells_the_sign_of_the_torque);
     RUN_TEST(test_mechanical_angle_under_electrical_name);
     RUN_TEST(test_counts_under_a_name_of_degrees);
+    RUN_TEST(test_currents_of_a_slow_turn_exchanged);
+    RUN_TEST(test_currents_of_loads_exchanged);
     RUN_TEST(test_mechanical_speed_under_electrical_name);
     RUN_TEST(test_slips_of_dq_currents);
     RUN_TEST(test_the_log_of_a_drive);

@@ -115,7 +115,8 @@ typedef struct {
     bool is_electrical;    /* the angle is theta_e */
     double given_zero_rad; /* electrical, that the user adds to the angle; 0: none */
     bool is_exchanged;     /* angle and torque stand in each other's column, as it seems */
-    bool dq_is_steady;     /* i_d, i_q are more than noise about 0 */
+    bool currents_are_exchanged; /* i_d and i_q, of a file without a torque */
+    bool dq_is_steady;           /* i_d, i_q are more than noise about 0 */
     bool has_abc, has_dq, has_voltage, has_speed, has_torque;
     bool has_phase_voltage, has_dq_voltage; /* one of them where has_voltage */
     bool has_line_voltage;                  /* those of the phases are made of it */
@@ -153,6 +154,7 @@ typedef struct {
     int line[CHECK_MOST_LINES], lines;       /* orders per turn with which the torque repeats */
     check_frame frame[CHECK_SCALES + 1];     /* the last: at the order that the recording itself has */
     check_place theta_cell, time_cell, speed_cell, current_cell, voltage_cell, torque_cell;
+    check_place d_cell;        /* of i_d, where has_dq */
     check_place channel_cell;  /* of the odd channel */
     check_place phase_cell[3]; /* of the phase currents, where has_abc */
 } check_run;

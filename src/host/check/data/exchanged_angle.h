@@ -1,5 +1,5 @@
-/* Whether angle and torque stand in each other's column: the one called torque goes on evenly from row to row,
- * and the one called angle to and fro. */
+/* Whether angle and torque stand in each other's column: the one called torque goes on evenly from row to
+ * row, and the one called angle to and fro. */
 #ifndef HCI_SRC_HOST_CHECK_EXCHANGED_ANGLE_H
 #define HCI_SRC_HOST_CHECK_EXCHANGED_ANGLE_H
 

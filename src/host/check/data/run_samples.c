@@ -32,6 +32,7 @@ static void places(const check_samples *s, check_run *run)
     place(s, HCI_RUN_TIME, run, &run->time_cell);
     place(s, run->speed_is_electrical ? HCI_RUN_SPEED_E : HCI_RUN_SPEED, run, &run->speed_cell);
     place(s, run->has_abc ? HCI_RUN_IA : HCI_RUN_IQ, run, &run->current_cell);
+    if (run->has_dq) place(s, HCI_RUN_ID, run, &run->d_cell);
     for (int phase = 0; phase < 3 && run->has_abc; ++phase)
         place(s, HCI_RUN_IA + (hci_run_column)phase, run, &run->phase_cell[phase]);
     if (!run->has_line_voltage)
