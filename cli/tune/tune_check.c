@@ -346,6 +346,26 @@ static void judge_torque(cli_tuning *t, const hci_check *c, const hci_check_evid
     append(t, "), so nothing was solved");
 }
 
+/* Where no slip explains all the logs: one whose currents go round with another number of pole pairs is of
+ * another motor; what its currents make in the frame of this one is nothing. */
+static bool judge_other_motor(cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count && !t->has_slip; ++k) {
+        const hci_run *r = &t->runs.run[k];
+        if (r->other_pole_pairs == 0) continue;
+        t->has_slip = t->slip_is_of_frame = true;
+        append(t,
+               "The phase currents of %.120s go round %d times in a turn of its shaft, and the motor has %d "
+               "pole pairs: "
+               "it is a log of another motor, or the number of pole pairs is another one, or its angle is "
+               "none of the "
+               "shaft; with %d pole pairs not all that the logs say agrees either, so nothing was solved",
+               cli_tune_name_of(t, k), r->other_pole_pairs, r->pole_pairs, r->other_pole_pairs);
+        return true;
+    }
+    return false;
+}
+
 /* How the sign is turned, of i_q or of phase currents. */
 static void say_turned(cli_tuning *t, const hci_run *r)
 {
@@ -431,13 +451,14 @@ static void judge_check(cli_tuning *t, const hci_check *c)
     judge_zero(t, c);
     if (cli_tune_say_mixed_torque(t, t->slip, sizeof t->slip)) t->has_slip = true;
     t->counts_pole_pairs = counts_pole_pairs(t, c);
+    const bool is_of_two = c->verdict == HCI_CHECK_NOT_UNDERSTOOD && judge_other_motor(t);
     for (size_t k = 0; k < c->evidences && c->verdict != HCI_CHECK_CONSISTENT; ++k)
         judge_torque(t, c, &c->evidence[k]);
     judge_torque_way(t);
     judge_ambiguous(t, c);
     judge_current(t);
     judge_sheet(t, c);
-    for (size_t k = 0; k < c->evidences && c->verdict == HCI_CHECK_NOT_UNDERSTOOD; ++k)
+    for (size_t k = 0; k < c->evidences && c->verdict == HCI_CHECK_NOT_UNDERSTOOD && !is_of_two; ++k)
         if (c->evidence[k].state == HCI_CHECK_UNMENDED)
             *(is_of_angle(c->evidence[k].name) ? &t->has_misfit : &t->has_doubt) = true;
 }

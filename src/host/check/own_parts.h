@@ -22,6 +22,8 @@ void hci_check_add_moved(const check_posterior *p, hci_check *check);
 void hci_check_add_sequence(const check_data *data, hci_check *check);
 /* The angle of some recordings is in another unit. */
 void hci_check_add_scale(const check_data *data, hci_check *check);
+/* Some recordings make another torque for each ampere. */
+void hci_check_add_constant(const check_data *data, hci_check *check);
 /* Angle and torque are each in the other's column. */
 void hci_check_add_exchanged(const check_data *data, hci_check *check);
 /* i_d and i_q are each in the other's column. */

@@ -637,12 +637,12 @@ static void drop_zero_of_open(reader *r)
 static void say_pole_pairs(reader *r)
 {
     double turns;
-    if (hci_run_currents_go_otherwise(r->run, &turns))
-        hci_note_add(
-            &r->run->remark,
-            "the phase currents go round %.0f times in a turn of the shaft, and the machine has %d pole "
-            "pairs: it is of another machine, or the angle is none of the shaft",
-            fabs(turns), r->pole_pairs);
+    if (!hci_run_currents_go_otherwise(r->run, &turns)) return;
+    r->run->other_pole_pairs = (int)round(fabs(turns));
+    hci_note_add(&r->run->remark,
+                 "the phase currents go round %d times in a turn of the shaft, and the machine has %d pole "
+                 "pairs: it is of another machine, or the angle is none of the shaft",
+                 r->run->other_pole_pairs, r->pole_pairs);
 }
 
 static hci_status no_holding_current(const reader *r)

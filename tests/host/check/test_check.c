@@ -949,17 +949,22 @@ static void test_a_current_at_another_angle_is_no_other_zero(void)
 
 /* ---- recordings that contradict each other */
 
-/* Three recordings without voltages, each with its own mistake. */
-static void check_three(double i_q_A, mistake *const wrong[3])
+/* Three recordings without voltages, each with its own current and mistake. */
+static void check_loads(const double i_q_A[3], mistake *const wrong[3])
 {
     static const char *const NAME[] = {"first.csv", "second.csv", "third.csv"};
     static const char *run[3];
     write_machine(EMF_ALONE, "amplitude_Nm_per_A", 0.1, 0.0);
     for (int j = 0; j < 3; ++j) {
         run[j] = path[paths];
-        write_run(NAME[j], NO_VOLTAGES, 0.0, i_q_A, wrong[j]);
+        write_run(NAME[j], NO_VOLTAGES, 0.0, i_q_A[j], wrong[j]);
     }
     hci_check_files(files_root, run, 3, &(hci_run_options){0}, &check, &note);
+}
+
+static void check_three(double i_q_A, mistake *const wrong[3])
+{
+    check_loads((double[3]){i_q_A, i_q_A, i_q_A}, wrong);
 }
 
 static void expect_first(const char *slip, const char *words)
@@ -1031,6 +1036,37 @@ static void test_degrees_in_one_recording(void)
     check_three(8.0, (mistake *const[]){degrees, degrees, degrees});
     TEST_ASSERT_FALSE(has_finding("angle_unit_differs"));
     remove_files();
+}
+
+MISTAKE(currents_of_ten, noise_and_torque(x); for (int s = 0; s < 3; ++s) x->i[s] *= 10.0)
+MISTAKE(torque_of_a_tenth, noise_and_torque(x); x->torque_Nm *= 0.1)
+MISTAKE(of_a_thousand, noise_and_torque(x); milliampere(x))
+MISTAKE(of_a_warm_magnet, noise_and_torque(x); x->torque_Nm *= 0.85)
+MISTAKE(beside_friction, noise_and_torque(x); x->torque_Nm -= 0.2)
+
+/* One recording makes another torque for each ampere, and no unit of all of them explains that. */
+static void test_another_torque_per_ampere_in_one_recording(void)
+{
+    static const double LOAD_A[] = {8.0, 5.0, 3.0};
+    static const struct {
+        mistake *wrong;
+        const char *words;
+    } CASES[] = {{currents_of_ten, "in second.csv is 0.1 times that in first.csv and 1 other"},
+                 {torque_of_a_tenth, "in second.csv is 0.1 times that in first.csv and 1 other"},
+                 {of_a_thousand, "in second.csv is 0.001 times that in first.csv and 1 other"},
+                 {of_a_warm_magnet, NULL},
+                 {beside_friction, NULL}};
+    for (size_t k = 0; k < sizeof CASES / sizeof *CASES; ++k) {
+        check_loads(LOAD_A, (mistake *const[]){noise_and_torque, CASES[k].wrong, noise_and_torque});
+        if (CASES[k].words)
+            expect_first("constant_differs", CASES[k].words);
+        else
+            TEST_ASSERT_FALSE(has_finding("constant_differs"));
+        remove_files();
+        check_loads(LOAD_A, (mistake *const[]){CASES[k].wrong, CASES[k].wrong, CASES[k].wrong});
+        TEST_ASSERT_FALSE(has_finding("constant_differs"));
+        remove_files();
+    }
 }
 
 MISTAKE(exchanged, const double theta = x->theta; x->theta = x->torque_Nm + 0.1 * sin(7.0 * theta);
@@ -1730,6 +1766,7 @@ int main(void)
     RUN_TEST(test_one_number_for_torque);
     RUN_TEST(test_phases_swapped_in_one_recording);
     RUN_TEST(test_degrees_in_one_recording);
+    RUN_TEST(test_another_torque_per_ampere_in_one_recording);
     RUN_TEST(test_turns_rather_than_pole_pairs);
     RUN_TEST(test_angle_and_torque_exchanged);
     RUN_TEST(test_a_torque_of_no_unit);

@@ -82,6 +82,8 @@ typedef struct {
     int current_way; /* of a run without a torque sensor, whose i_q was recorded, or phase currents that lie
                       * along i_q: 1 where it accelerates and overcomes friction, -1 where it works against
                       * the motion, 0 where that is not told */
+    int other_pole_pairs;   /* how often its phase currents go round in a turn of the shaft, where that is not
+                               the number of pole pairs; 0: it is, or nothing tells */
     bool counts_pole_pairs; /* phase currents beside a mechanical angle keep to one line of the rotor frame */
     double off_iq_rad; /* angle of that line from i_q, electrical, of phase currents without a torque sensor,
                         * -π/2 to π/2, where it is none of noise: the zero of the angle is another one, or
@@ -119,9 +121,9 @@ typedef struct {
     double speed_unit_rad_per_s;   /* the same of the speed; 0: none was recorded */
     bool angle_is_counted;         /* the numbers of that column are whole, as an encoder counts */
     bool is_tabulated; /* without a time, at constant currents and even angles, as torques are calculated */
-    bool is_point;                 /* one of several operating points that its file holds */
-    size_t *row;                   /* [count], of the file, from 0; NULL: each row is a sample */
-    hci_note remark;               /* what was supposed on reading, or "" */
+    bool is_point;     /* one of several operating points that its file holds */
+    size_t *row;       /* [count], of the file, from 0; NULL: each row is a sample */
+    hci_note remark;   /* what was supposed on reading, or "" */
 } hci_run;
 
 /* What reading a run asks for beside its file. */
