@@ -187,6 +187,26 @@ static void append_units(cli_tuning *t, const hci_check *c)
     }
 }
 
+/* Levers of test benches, m. */
+#define LEAST_LEVER 0.02
+#define MOST_LEVER  1.0
+
+#define TOLD_BY                                                                                              \
+    "voltages of the open machine tell the number of the sheet, a known weight on a lever the torque"
+
+/* "the column is a force in N on a lever of 123 mm (--column 'torque_Nm=COLUMN/8.12'; …), or ", of a torque
+ * that is so many times what the currents make. */
+static void append_lever(cli_tuning *t, double ratio)
+{
+    const double lever_m = 1.0 / ratio;
+    if (lever_m > LEAST_LEVER && lever_m < MOST_LEVER)
+        append(
+            t,
+            "the column is a force in N on a lever of %.0f mm (--column 'torque_Nm=COLUMN/%.4g'; the lever "
+            "is measured), or ",
+            1000.0 * lever_m, ratio);
+}
+
 /* A number that was typed without a unit is more often wrong than a column that says its own. */
 static void judge_number(cli_tuning *t, const hci_check *c)
 {
@@ -200,9 +220,9 @@ static void judge_number(cli_tuning *t, const hci_check *c)
     t->has_slip = t->slip_is_of_sheet = true;
     append(t, "%c%s. Else ", toupper(number[0]), number + 1);
     append_units(t, c);
-    append(t,
-           "the torque is of the other side of a gear, or of another motor. Nothing was solved; voltages of "
-           "the open machine tell the number");
+    append_lever(t, t->torque_to_sheet);
+    append(t, "the currents are in another unit, or the torque is of the other side of a gear, or of another "
+              "motor. The logs alone do not tell which: " TOLD_BY ". Nothing was solved");
 }
 
 static void say_evidence(cli_tuning *t, const hci_check_evidence *e)
@@ -333,17 +353,19 @@ static void judge_torque(cli_tuning *t, const hci_check *c, const hci_check_evid
             "nothing was solved: --column 'iq_A=COLUMN' --column 'id_A=COLUMN' say which is which");
         return;
     }
-    snprintf(
-        t->slip, sizeof t->slip,
-        "The torque is %.3g times what the currents make with the constant of the sheet%s (of the other "
-        "side of a gear, in another unit, a force without its arm, or of another motor, or %s is another "
-        "number or of another unit",
-        e->declared / e->expected, unit_of_torque(e->declared / e->expected), cli_tune_constant_option(t));
+    const double ratio = e->declared / e->expected;
+    append(t, "The torque is %.3g times what the currents make with the constant of the sheet%s (", ratio,
+           unit_of_torque(ratio));
+    append_lever(t, fabs(ratio));
+    append(t,
+           "it is of the other side of a gear, in another unit, or of another motor, or %s is another number "
+           "or of another unit",
+           cli_tune_constant_option(t));
     for (size_t k = 0; k < c->findings; ++k)
         if (!is_excluded(t, c->finding[k].slip))
             append(t, ", or %s, by %s %%", c->finding[k].words,
                    HCI_PERCENT(100.0 * probability_of(t, c, &c->finding[k]), 2));
-    append(t, "), so nothing was solved");
+    append(t, "; " TOLD_BY "), so nothing was solved");
 }
 
 /* Where no slip explains all the logs: one whose currents go round with another number of pole pairs is of

@@ -288,6 +288,16 @@ done <<'END'
 --flux 75 0.075
 END
 says 'Else the currents are in mA, whatever its column says .--column .ia_mA=ia_A.*, or the torque is of the other side of a gear'
+# newtons on a lever of 150 or 120 mm in the column of the torque: what fits of the sheet is one of several, and what tells them apart is said
+for log in none two three; do
+    awk -F, -v OFS=, 'NR > 1 { $6 /= 0.15 } 1' $log.csv >longer_$log.csv
+    awk -F, -v OFS=, 'NR > 1 { $6 /= 0.12 } 1' $log.csv >newton_$log.csv
+done
+run 1 tune longer_none.csv longer_two.csv longer_three.csv --pole-pairs 4 --torque-constant 0.45 -o point
+says ' fits: begin again with it if that is meant\. Else .* or the column is a force in N on a lever of 15[0-9] mm .--column .torque_Nm=COLUMN/6' \
+    'The logs alone do not tell which: voltages of the open machine tell the number of the sheet, a known weight on a lever the torque\. Nothing was solved'
+run 1 tune newton_none.csv newton_two.csv newton_three.csv --pole-pairs 4 --torque-constant 0.45 -o point
+says 'The torque is 8\.[0-9]* times what the currents make.*a force in N on a lever of 12[0-9] mm.*voltages of the open machine tell the number of the sheet, a known weight on a lever the torque'
 # i_d and i_q exchanged: the load makes no torque along i_d
 for log in two three; do
     awk -F, -v OFS=, -v i="$log" 'NR == 1 { print "time_s,theta_m_rad,id_A,iq_A,torque_Nm"; next } { print $1, $2, (i == "two" ? 2 : 3), 0.01 * sin($2), $6 }' $log.csv >dq_$log.csv
