@@ -253,6 +253,13 @@ const char *cli_tune_torque_like(const cli_tuning *t)
     return NULL;
 }
 
+const char *cli_tune_force_like(const cli_tuning *t)
+{
+    for (size_t k = 0; k < t->runs.count; ++k)
+        if (t->runs.run[k].force_like[0]) return t->runs.run[k].force_like;
+    return NULL;
+}
+
 const char *cli_tune_current_like(const cli_tuning *t)
 {
     for (size_t k = 0; k < t->runs.count; ++k)

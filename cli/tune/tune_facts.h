@@ -57,6 +57,9 @@ bool cli_tune_lacks_torque(const cli_tuning *tune);
 /* A column that was not read and may be the torque, or i_q where no current was read, as --column takes it:
  * "torque_Nm=COLUMN"; NULL: none. */
 const char *cli_tune_torque_like(const cli_tuning *tune);
+
+/* The header of a column that was not read and may be the force of a load cell; NULL: none. */
+const char *cli_tune_force_like(const cli_tuning *tune);
 const char *cli_tune_current_like(const cli_tuning *tune);
 
 /* A recording whose angle and current say nothing since no time was read and nobody says that the shaft is

@@ -95,6 +95,7 @@ check "gon: $(grep -o 'convention is broken' read/summary.json)" [ "$(grep -c 'c
 
 awk -F, -v OFS=, 'NR == 1 { $2 = "theta_m_gon"; $6 = "load_g" } NR > 1 { $6 *= 680 } 1' gon0.csv >lever.csv
 run 1 tune lever.csv $motor -o lever
+says '^  - If the column .load_g. is the force of a load cell, the torque is it times the lever: --column .torque_Nm=load_g/NUMBER'
 check "no lever" grep -q 'force x lever' lever/summary.json lever/report.html
 run 0 tune lever.csv $motor --column 'torque_Nm=load_g/680' -o lever
 says '  order 12: 0\.00(8|79)[0-9]* ± '

@@ -155,6 +155,19 @@ static void append_of_time(cli_tuning *t)
                "of a counter of 1000 a second); or add --holding, if the shaft was turned slowly by control");
 }
 
+/* A load cell on a lever, whose length nobody said. */
+static void append_of_force(cli_tuning *t)
+{
+    const char *force = cli_tune_lacks_torque(t) && !cli_tune_torque_like(t) ? cli_tune_force_like(t) : NULL;
+    if (force)
+        cli_tune_caveat(
+            t,
+            "If the column `%.60s` is the force of a load cell, the torque is it times the lever: "
+            "--column 'torque_Nm=%.60s/NUMBER' with 1 over the lever in m as NUMBER, 6.667 for 150 "
+            "mm (of kg 0.102 over the lever, of g 102 over it)",
+            force, force);
+}
+
 /* Columns that nobody named, and that may be what is missing. */
 static void append_of_columns(cli_tuning *t)
 {
@@ -163,6 +176,7 @@ static void append_of_columns(cli_tuning *t)
     if (torque)
         cli_tune_caveat(t, "If the column `%s` is a torque, add --column '%s'", strchr(torque, '=') + 1,
                         torque);
+    append_of_force(t);
     if (current) {
         char column[HCI_RUN_NAME];
         cli_tune_column_of(current, column);

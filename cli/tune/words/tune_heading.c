@@ -295,6 +295,8 @@ static const char *why_untold(const cli_tuning *t)
         return "The log has an angle and a current and no time, without which nothing tells whether the "
                "shaft "
                "was turned slowly";
+    if (cli_tune_lacks_torque(t) && !cli_tune_torque_like(t) && cli_tune_force_like(t))
+        return "The logs have no torque; a force is one times the lever on which it was measured";
     if (t->needs_inertia) return "The inertia may answer what the current does not";
     if (cli_tune_is_one_way(t))
         return "The shaft turns in one direction alone, in which the current does not tell friction from "

@@ -720,8 +720,8 @@ static hci_status read_all(reader *r)
     if (!status) status = read_column(r, HCI_RUN_TEMPERATURE, &run->temperature_C);
     if (!status) status = read_torque(r);
     if (!status) status = check_finite(r);
-    if (!status && run->torque_source == HCI_TORQUE_NONE)
-        hci_run_columns_torque_like(&r->columns, run->torque_like);
+    if (!status && run->torque_source != HCI_TORQUE_MEASURED && !has(r, HCI_RUN_TORQUE))
+        hci_run_columns_torque_like(&r->columns, run->torque_like, run->force_like);
     if (!status && (run->speed_rad_per_s == NULL || run->speed_window > 0) && !has(r, HCI_RUN_SPEED))
         hci_run_columns_speed_like(&r->columns);
     if (!status) hci_run_columns_tell_unused(&r->columns);

@@ -587,27 +587,42 @@ static bool is_left(const hci_run_columns *c, size_t column)
            strlen(hci_csv_name(c->csv, column)) + 10 + sizeof HCI_RUN_DIGITS_PER_A < HCI_RUN_NAME;
 }
 
-/* A load cell on a lever. */
-static void say_force(const hci_run_columns *c)
+/* "Kraft [N]", "F_N" */
+static bool is_in_newton(const char *name)
+{
+    static const char *const ENDS[] = {"_N", " N", "[N]", "(N)", "/N"};
+    const size_t length = strlen(name);
+    for (size_t k = 0; k < sizeof ENDS / sizeof *ENDS; ++k)
+        if (length > strlen(ENDS[k]) && strcmp(name + length - strlen(ENDS[k]), ENDS[k]) == 0) return true;
+    return false;
+}
+
+static bool is_force(const char *name)
 {
     static const char *const WORDS[] = {"force", "kraft", "load", "weight", "gewicht", "fuerza", "forza"};
+    for (size_t k = 0; k < sizeof WORDS / sizeof *WORDS; ++k)
+        if (has_word(name, WORDS[k])) return true;
+    return is_in_newton(name);
+}
+
+/* A load cell on a lever. */
+static void say_force(const hci_run_columns *c, char text[HCI_RUN_NAME])
+{
     char quoted[HCI_QUOTE_SIZE];
     for (size_t column = 0; column < hci_csv_columns(c->csv); ++column) {
         const char *name = hci_csv_name(c->csv, column);
-        bool is_force = false;
-        for (size_t k = 0; k < sizeof WORDS / sizeof *WORDS; ++k)
-            is_force = is_force || has_word(name, WORDS[k]);
-        if (!is_force || !is_left(c, column)) continue;
+        if (!is_left(c, column) || !is_force(name)) continue;
         hci_note_add(c->remark,
                      "%s may be the force of a load cell: the torque is force x lever, --column "
                      "'torque_Nm=%s/NUMBER' with 1 over the lever in m as NUMBER (of a force in kg 0.102 "
                      "over it, in g 102 over it)",
                      hci_quote(name, quoted), name);
+        snprintf(text, HCI_RUN_NAME, "%s", name);
         return;
     }
 }
 
-void hci_run_columns_torque_like(const hci_run_columns *c, char text[HCI_RUN_NAME])
+void hci_run_columns_torque_like(const hci_run_columns *c, char text[HCI_RUN_NAME], char force[HCI_RUN_NAME])
 {
     char quoted[HCI_QUOTE_SIZE];
     for (size_t column = 0; column < hci_csv_columns(c->csv) && text[0] == '\0'; ++column) {
@@ -627,7 +642,7 @@ void hci_run_columns_torque_like(const hci_run_columns *c, char text[HCI_RUN_NAM
         hci_note_add(c->remark, "%s may be the torque: if it is, add --column '%s'", hci_quote(is, quoted),
                      text);
     }
-    if (text[0] == '\0') say_force(c);
+    if (text[0] == '\0') say_force(c, force);
 }
 
 /* Which current a name is likely to be of: along d where it says so, else along q. */

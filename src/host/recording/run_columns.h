@@ -60,9 +60,10 @@ typedef struct {
  * or voltages, or with an angle that may be mechanical or electrical; HCI_ERROR_MEMORY. */
 hci_status hci_run_columns_find(const hci_csv *csv, hci_run_columns *c, hci_note *remark, hci_note *note);
 
-/* The column that was not read and may be a measured torque, as --column takes it; the remark tells it, too.
- * text: out, left where there is none. */
-void hci_run_columns_torque_like(const hci_run_columns *c, char text[HCI_RUN_NAME]);
+/* The column that was not read and may be a measured torque, as --column takes it, or else one that may be
+ * the force of a load cell, as its header says; the remark tells it, too. text, force: out, left where there
+ * is none. */
+void hci_run_columns_torque_like(const hci_run_columns *c, char text[HCI_RUN_NAME], char force[HCI_RUN_NAME]);
 
 /* Tells in the remark which columns that were not read are currents by their unit or name. text: out, the
  * first that may be i_q, as --column takes it; left where there is none. */

@@ -76,10 +76,10 @@ static void test_angles_that_look_like_degrees_are_told(void)
  * the first, of currents all. */
 static void test_what_may_be_a_torque_a_current_a_speed(void)
 {
-    char torque[HCI_RUN_NAME] = "", current[HCI_RUN_NAME] = "";
+    char torque[HCI_RUN_NAME] = "", force[HCI_RUN_NAME] = "", current[HCI_RUN_NAME] = "";
     TEST_ASSERT_EQUAL(HCI_OK, find("theta_m_rad,lamp,Messwelle roh,torque raw 2,i along d raw,Messung roh_A,"
                                    "Drehzahl roh,speed raw\n0,1,2,3,4,5,6,7\n"));
-    hci_run_columns_torque_like(&columns, torque);
+    hci_run_columns_torque_like(&columns, torque, force);
     TEST_ASSERT_EQUAL_STRING("torque_Nm=Messwelle roh", torque);
     TEST_ASSERT_EQUAL_STRING(
         "`Messwelle roh` may be the torque: if it is, add --column 'torque_Nm=Messwelle roh'", remark.text);
@@ -100,12 +100,34 @@ static void test_what_may_be_a_torque_a_current_a_speed(void)
     TEST_ASSERT_NULL_MESSAGE(strstr(remark.text, "speed raw"), remark.text);
 }
 
+/* Of a load cell on a lever, by its words or by its unit; not beside what may be a torque. */
+static void test_what_may_be_a_force(void)
+{
+    static const struct {
+        const char *text, *force;
+    } CASES[] = {{"theta_m_rad,Kraft [N]\n0,1\n", "Kraft [N]"},
+                 {"theta_m_rad,force_N\n0,1\n", "force_N"},
+                 {"theta_m_rad,F [N]\n0,1\n", "F [N]"},
+                 {"theta_m_rad,cell_g,load_g\n0,1,2\n", "load_g"},
+                 {"theta_m_rad,N,PIN\n0,1,2\n", ""},
+                 {"theta_m_rad,force_N,torque raw\n0,1,2\n", ""}};
+    for (size_t k = 0; k < sizeof CASES / sizeof *CASES; ++k) {
+        char torque[HCI_RUN_NAME] = "", force[HCI_RUN_NAME] = "";
+        TEST_ASSERT_EQUAL(HCI_OK, find(CASES[k].text));
+        hci_run_columns_torque_like(&columns, torque, force);
+        TEST_ASSERT_EQUAL_STRING(CASES[k].force, force);
+        hci_run_columns_release(&columns);
+        hci_csv_free(csv);
+        csv = NULL;
+    }
+}
+
 /* A torque in per cent of something cannot be read. */
 static void test_a_torque_in_per_cent_is_told(void)
 {
-    char torque[HCI_RUN_NAME] = "";
+    char torque[HCI_RUN_NAME] = "", force[HCI_RUN_NAME] = "";
     TEST_ASSERT_EQUAL(HCI_OK, find("theta_m_rad,torque raw %\n0,1\n"));
-    hci_run_columns_torque_like(&columns, torque);
+    hci_run_columns_torque_like(&columns, torque, force);
     TEST_ASSERT_EQUAL_STRING("", torque);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(remark.text, "may be the torque in per cent of another one"),
                                  remark.text);
@@ -419,6 +441,7 @@ int main(void)
     RUN_TEST(test_a_bare_angle_is_what_turns_as_fast_as_the_speed);
     RUN_TEST(test_angles_that_look_like_degrees_are_told);
     RUN_TEST(test_what_may_be_a_torque_a_current_a_speed);
+    RUN_TEST(test_what_may_be_a_force);
     RUN_TEST(test_a_torque_in_per_cent_is_told);
     RUN_TEST(test_a_column_that_may_be_the_angle_is_asked_for);
     RUN_TEST(test_values_come_in_si_units);

@@ -107,10 +107,12 @@ typedef struct {
     double
         drive_constant_Nm_per_A; /* of i_q, by a torque that the drive computed from it; 0: none is known */
     int computed_phase; /* 1, 2, 3: of two phase currents the third was made, so that the sum is 0; 0: not */
-    char torque_like[HCI_RUN_NAME];  /* no torque was read, and this, as --column takes it, may read one that
-                                      * stands in the file; "": none */
-    char current_like[HCI_RUN_NAME]; /* the same of i_q, where no current was read */
-    char time_like[HCI_RUN_NAME];    /* the same of the time, where none was read */
+    char force_like[HCI_RUN_NAME];  /* no torque was read, and the column of this header may be the force of a
+                                       load cell on a lever; "": none */
+    char torque_like[HCI_RUN_NAME]; /* no torque was read, and this, as --column takes it, may read one that
+                                     * stands in the file; "": none */
+    char current_like[HCI_RUN_NAME];      /* the same of i_q, where no current was read */
+    char time_like[HCI_RUN_NAME];         /* the same of the time, where none was read */
     char commanded_voltage[HCI_RUN_NAME]; /* header of a v_q that was not used, since no current was recorded
                                            * beside it; "": none */
     double commanded_unit_V;              /* a 1 of that column in V; 0: none */
