@@ -196,6 +196,14 @@ static void append_of_drive_zero(cli_tuning *t)
             fabs(t->drive_zero_deg), cli_tune_offset_to_give(t, t->drive_zero_deg), t->drive_zero_reach_deg);
 }
 
+/* Whether a back-EMF that is turned is said behind a zero by the currents, of which it is a second witness.
+ */
+static bool is_of_drive_zero(const cli_tuning *t)
+{
+    return t->is_solved && fabs(t->open_turn_deg) > 0.0 && fabs(t->drive_zero_deg) > 0.0 &&
+           !t->took_drive_zero && !cli_tune_has_zero_of_voltages(t);
+}
+
 /* What the drive has to add to an angle that it counts as the logs do. */
 static void append_of_offset(cli_tuning *t)
 {
@@ -212,7 +220,15 @@ static void append_of_zero(cli_tuning *t)
 {
     append_of_drive_zero(t);
     append_of_offset(t);
-    if (fabs(t->open_turn_deg) > 0.0 && t->is_solved)
+    if (is_of_drive_zero(t))
+        cli_tune_caveat(
+            t,
+            "That is the same angle once more and no second correction: the back-EMF is found turned "
+            "by %.1f ± %.1f degrees (of the noise alone)%s, which a saliency with its saturation "
+            "may do as well as a part of that zero: %s",
+            t->open_turn_deg, t->open_turn_error_deg, t->turn_is_of_dq ? " against i_d and i_q" : "",
+            cli_tune_turn_told_by(t));
+    else if (fabs(t->open_turn_deg) > 0.0 && t->is_solved)
         cli_tune_caveat(
             t,
             cli_tune_has_zero_of_voltages(t)

@@ -41,7 +41,7 @@ static void test_counts_that_encoders_have(void)
                  {15200.0, 15000.0}, {360.0, 350.0},    {62.5, 64.0},       {61.9, 60.0},
                  {1.2e6, 0.0},       {1.48e6, 1.5e6}};
     for (size_t k = 0; k < sizeof CASES / sizeof *CASES; ++k)
-        TEST_ASSERT_EQUAL_DOUBLE_MESSAGE(CASES[k].usual, usual_counts(CASES[k].found), "counts of a turn");
+        TEST_ASSERT_EQUAL_DOUBLE_MESSAGE(CASES[k].usual, hci_usual_counts(CASES[k].found), "counts of a turn");
 }
 
 enum { MOST = 1001 };
