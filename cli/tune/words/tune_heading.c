@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "cli/tune/tune_cover.h"
+#include "cli/tune/tune_directions.h"
 #include "cli/tune/tune_facts.h"
 #include "cli/tune/tune_read.h"
 #include "cli/tune/tune_recorded.h"
@@ -84,17 +85,33 @@ static void say_rest_unknown(const cli_tuning *t, char *text, size_t size)
         but);
 }
 
+enum { CLI_TUNE_CAUSE = 400 };
+
+/* Where means are not explained and a ripple is: a load that alone has another i_d is named before sensors
+ * and friction, whose zeros are otherwise alike. */
+static const char *means_cause(const cli_tuning *t, char text[CLI_TUNE_CAUSE])
+{
+    char names[CLI_TUNE_PATH];
+    const bool is_aside = cli_tune_other_directions(t, names, sizeof names);
+    snprintf(text, CLI_TUNE_CAUSE,
+             "%.200s%sfriction or the zero of the torque sensor is another one from run to run",
+             is_aside ? names : "",
+             is_aside ? " asks by its i_d for what no effect here has, or where " : "");
+    return text;
+}
+
 /* Why the table is doubtful, and what that means for what it leaves. */
 static void say_why_doubtful(const cli_tuning *t, char *text, size_t size)
 {
+    char cause[CLI_TUNE_CAUSE];
     if (!isfinite(t->solution.expected.unbelievable_order) && !t->diagnosis.means_alone && has_the_ripple(t))
         say_rest_unknown(t, text, size);
     else if (t->diagnosis.means_alone)
-        snprintf(
-            text, size,
-            "The ripple of the recordings is explained, and the mean torque of each is not, as where "
-            "friction or the zero of the torque sensor is another one from run to run, so what the table "
-            "leaves of the ripple has no bound");
+        snprintf(text, size,
+                 "The ripple of the recordings is explained, and the mean torque of each is not, as where "
+                 "%s, so what "
+                 "the table leaves of the ripple has no bound",
+                 means_cause(t, cause));
     else
         snprintf(text, size,
                  "%s, so what the table leaves of the ripple is not to be relied on and may be more than a "
@@ -153,11 +170,11 @@ static void say_of_model(const cli_tuning *t, double before_Nm, double after_Nm,
 }
 
 /* The ripple is explained, and the mean torque of each recording is not. */
-static void append_means(const hci_expected_ripple *e, char *text, size_t size)
+static void append_means(const cli_tuning *t, const hci_expected_ripple *e, char *text, size_t size)
 {
+    char cause[CLI_TUNE_CAUSE];
     snprintf(text + strlen(text), size - strlen(text),
-             "; the mean torque of each recording is not explained, as where friction or the zero of the "
-             "torque sensor is another one from run to run");
+             "; the mean torque of each recording is not explained, as where %s", means_cause(t, cause));
     if (e->state == HCI_RIPPLE_KNOWN && e->mean_error_Nm >= fabs(e->mean_Nm))
         snprintf(text + strlen(text), size - strlen(text), ", and that of the table is not known");
     else if (e->state == HCI_RIPPLE_KNOWN && isfinite(e->mean_error_Nm))
@@ -187,7 +204,7 @@ static void say_fall(cli_tuning *t, char *text, size_t size)
         say_bound(t, before_Nm, after_Nm, text, size);
     else
         say_of_model(t, before_Nm, after_Nm, text, size);
-    if (e->origin.left_means_Nm > 0.0) append_means(e, text, size);
+    if (e->origin.left_means_Nm > 0.0) append_means(t, e, text, size);
 }
 
 /* What is not in the logs goes before what is. */
