@@ -32,7 +32,7 @@ motor='--pole-pairs 5 --flux 0.0133333333333333 --slots 12 --rated-current 1 --t
 for load in 0 0.3 0.6 1; do sensor_log "log$load.csv" "$load" 2 ia_A,ib_A,ic_A 60; done
 for load in 0.3 0.6 1; do sensor_log "swap$load.csv" "$load" 2 ib_A,ia_A,ic_A 60; done
 run 1 tune log0.csv swap0.3.csv swap0.6.csv swap1.csv $motor -o swapped
-says '^a convention is broken: Most likely phases a and b of the recordings are swapped \([0-9.]* %\), so nothing was solved$'
+says '^a convention is broken: Most likely phases a and b of the recordings are swapped \([0-9.]* %\), so nothing was solved: --column .ia=ib_A. --column .ib=ia_A.$'
 run 1 tune log0.csv log0.3.csv log0.6.csv log1.csv --pole-pairs 4 --flux 0.0166666666666667 -o poles
 says '^a convention is broken: Most likely pole_pairs is not .*, so nothing was solved$'
 run 1 tune log0.csv log0.3.csv log0.6.csv log1.csv --pole-pairs 5 --flux 0.00133333333333333 -o point # a number of the sheet is still named

@@ -88,4 +88,15 @@ for logs in slow6.csv 'slow6.csv slow3.csv slow12.csv'; do
 done
 says 'Ripple not known: no recording shows a torque under load'
 
+# forward and back in one log without a time: the way the angle goes tells friction from cogging torque; a log of one way has none to tell
+ways() { # FILE IQ_A SEED
+    awk -v iq="$2" -v seed="$3" 'BEGIN { srand(seed); print "theta_m_deg,ia_A,ib_A,ic_A,torque_Nm"; turn = 6.283185307179586
+        for (k = 0; k < 4000; ++k) { way = k < 2000 ? 1 : -1; x = 0.3 + 2 * turn * (k < 2000 ? k : 4000 - k) / 2000; e = 4 * x
+            for (s = 0; s < 3; ++s) i[s] = iq * sin(e - s * turn / 3) + 0.004 * (rand() - 0.5)
+            printf "%.5f,%.5f,%.5f,%.5f,%.5f\n", x * 360 / turn, i[0], i[1], i[2], iq * (0.6 + 0.012 * sin(6 * e + 0.3)) + 0.04 * sin(6 * e + 1) - 0.05 * way + 0.004 * (rand() - 0.5) } }' >"$1"
+}
+ways w0.csv 0 1; ways w2.csv 2 2; ways w4.csv 4 3
+run 0 tune w?.csv --pole-pairs 4 --flux 0.1 --slots 24 --rated-current 5 -o ways
+says '^tuned: A ripple of' 'friction .added.: coulomb = 0\.0(5|49)' 'no time and no speed: the shaft turned slowly, the way'
+
 finish

@@ -674,7 +674,8 @@ static hci_status read_torque(reader *r)
     if (run->torque_Nm == NULL && r->options->holding && r->no_currents) return no_holding_current(r);
     if (run->torque_Nm == NULL) return hci_untold_torque_set(run, r->options, r->no_currents, r->note);
     run->torque_source = is_zero(run->torque_Nm, run->count) ? HCI_TORQUE_HOLDING : HCI_TORQUE_MEASURED;
-    if (run->torque_source != HCI_TORQUE_HOLDING) return HCI_OK;
+    if (run->torque_source != HCI_TORQUE_HOLDING)
+        return hci_row_direction_of_both_set(run) ? HCI_OK : memory_error(r);
     return hci_row_direction_set(run) ? hci_run_effort_set(run, r->note) : memory_error(r);
 }
 

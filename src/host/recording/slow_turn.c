@@ -199,6 +199,20 @@ bool hci_row_direction_set(hci_run *run)
     return true;
 }
 
+/* Of the rows, in each direction at least, of a shaft that was turned forward and back. */
+#define BOTH_WAYS 0.1
+
+bool hci_row_direction_of_both_set(hci_run *run)
+{
+    size_t forward = 0, back = 0;
+    for (size_t k = 0; run->theta_m_rad && k + 1 < run->count; ++k) {
+        forward += step_of(run, k) > 0;
+        back += step_of(run, k) < 0;
+    }
+    const double least = (double)(forward < back ? forward : back);
+    return least > BOTH_WAYS * (double)run->count ? hci_row_direction_set(run) : true;
+}
+
 /* ---- rows in which the current answers something else ---- */
 
 #define WINDOW_TURNS 0.05 /* electrical, over which the speed is looked at */

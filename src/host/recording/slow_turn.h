@@ -34,6 +34,10 @@ void hci_slow_turn_take_constant(hci_run *run, int pole_pairs, double iq_A);
  * out. O(samples). */
 bool hci_row_direction_set(hci_run *run);
 
+/* So, but only where the angle goes forward in a tenth of the rows or more, and back in as many: a table of
+ * one way has no speed. */
+bool hci_row_direction_of_both_set(hci_run *run);
+
 /* Leaves rows out of a run with time and angle, and says how many, in which a shaft that control turns slowly
  * waits, where friction takes of the current anything up to what it brakes with, or turns round, where
  * friction changes its sign and the shaft accelerates: its current does not answer cogging torque and

@@ -447,6 +447,26 @@ static bool gives_direction(size_t rows, size_t reversals)
     return run.speed_rad_per_s != NULL;
 }
 
+/* Rows of a torque sensor go forward and back, or one way with a few steps back, as a table does. */
+static void test_the_way_of_rows_both_ways(void)
+{
+    static const struct {
+        size_t back;
+        bool has_way;
+    } CASES[] = {{0, false}, {19, false}, {21, true}, {100, true}, {178, true}, {179, false}};
+    for (size_t x = 0; x < sizeof CASES / sizeof *CASES; ++x) {
+        rec_release(&run);
+        run = rec_make(200);
+        free(run.time_s);
+        free(run.speed_rad_per_s);
+        run.time_s = run.speed_rad_per_s = NULL;
+        for (size_t k = 1; k < 200; ++k)
+            run.theta_m_rad[k] = run.theta_m_rad[k - 1] + (k <= CASES[x].back ? -0.01 : 0.01);
+        TEST_ASSERT_TRUE(hci_row_direction_of_both_set(&run));
+        TEST_ASSERT_EQUAL(CASES[x].has_way, run.speed_rad_per_s != NULL);
+    }
+}
+
 /* One row of twenty may turn back. */
 static void test_the_way_of_rows(void)
 {
@@ -481,5 +501,6 @@ int main(void)
     RUN_TEST(test_what_accelerates_is_taken_out);
     RUN_TEST(test_a_constant_is_taken_out);
     RUN_TEST(test_the_way_of_rows);
+    RUN_TEST(test_the_way_of_rows_both_ways);
     return UNITY_END();
 }
