@@ -60,3 +60,40 @@ void hci_check_add_exchanged_currents(const check_data *data, hci_check *check)
     check->findings = 0; /* of a current that is another one */
     hci_check_put_first(check, &f);
 }
+
+/* Of what a torque varies by, its mean: of currents that do not turn with the rotor the mean over a turn is
+ * 0. */
+#define ONE_SIGN 3.0
+
+static const check_run *standing_run(const check_data *data)
+{
+    for (size_t k = 0; k < data->runs; ++k) {
+        const check_run *r = &data->run[k];
+        if (r->has_abc && r->standing_phase >= 0 && hci_check_torque_is_measured(r) &&
+            hci_check_has_current(data, r) && fabs(r->torque_mean) > ONE_SIGN * sqrt(r->torque_variance))
+            return r;
+    }
+    return NULL;
+}
+
+void hci_check_add_standing_currents(const check_data *data, hci_check *check)
+{
+    const check_run *r = standing_run(data);
+    if (!r || !r->phase_cell[r->standing_phase].path) return;
+    const check_place *q = &r->phase_cell[r->standing_phase],
+                      *d = &r->phase_cell[r->standing_phase == 0 ? 1 : 0];
+    hci_check_finding f =
+        hci_check_finding_at("currents_of_rotor_frame", q, "how the currents turn with the angle");
+    snprintf(f.words, sizeof f.words,
+             "the phase currents in %s stand while the rotor turns, and so does its torque, whose mean would "
+             "then be "
+             "0: they are i_d and i_q, or another current",
+             hci_check_name_of(r->path));
+    if (d->path)
+        snprintf(f.should_be, sizeof f.should_be, "--column 'iq=%.40s' --column 'id=%.40s'", q->column,
+                 d->column);
+    else
+        snprintf(f.should_be, sizeof f.should_be, "--column 'iq=%.40s'", q->column);
+    check->findings = 0; /* of currents that are none of a phase */
+    hci_check_put_first(check, &f);
+}

@@ -28,6 +28,8 @@ void hci_check_add_constant(const check_data *data, hci_check *check);
 void hci_check_add_exchanged(const check_data *data, hci_check *check);
 /* i_d and i_q are each in the other's column. */
 void hci_check_add_exchanged_currents(const check_data *data, hci_check *check);
+/* Currents that are said to be of phases stand while the rotor turns. */
+void hci_check_add_standing_currents(const check_data *data, hci_check *check);
 /* The torque is noise. */
 void hci_check_add_dead_torque(const check_data *data, hci_check *check);
 

@@ -1038,6 +1038,21 @@ static void test_degrees_in_one_recording(void)
     remove_files();
 }
 
+MISTAKE(dq_for_phases, noise_and_torque(x); x->i[0] = 0.1; x->i[1] = 8.0; x->i[2] = -8.1)
+MISTAKE(fed_with_direct_current, dq_for_phases(x); x->torque_Nm = 1.2 * sin(4.0 * x->theta))
+
+/* i_d and i_q under the names of phases; a winding that is fed with direct current swings as the rotor turns.
+ */
+static void test_currents_of_the_rotor_frame_under_names_of_phases(void)
+{
+    check_three(8.0, (mistake *const[]){dq_for_phases, dq_for_phases, dq_for_phases});
+    expect_first("currents_of_rotor_frame", "the phase currents in first.csv stand while the rotor turns");
+    remove_files();
+    check_three(8.0, (mistake *const[]){fed_with_direct_current, none, none});
+    TEST_ASSERT_FALSE(has_finding("currents_of_rotor_frame"));
+    remove_files();
+}
+
 MISTAKE(currents_of_ten, noise_and_torque(x); for (int s = 0; s < 3; ++s) x->i[s] *= 10.0)
 MISTAKE(torque_of_a_tenth, noise_and_torque(x); x->torque_Nm *= 0.1)
 MISTAKE(of_a_thousand, noise_and_torque(x); milliampere(x))
@@ -1767,6 +1782,7 @@ int main(void)
     RUN_TEST(test_phases_swapped_in_one_recording);
     RUN_TEST(test_degrees_in_one_recording);
     RUN_TEST(test_another_torque_per_ampere_in_one_recording);
+    RUN_TEST(test_currents_of_the_rotor_frame_under_names_of_phases);
     RUN_TEST(test_turns_rather_than_pole_pairs);
     RUN_TEST(test_angle_and_torque_exchanged);
     RUN_TEST(test_a_torque_of_no_unit);

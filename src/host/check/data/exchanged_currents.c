@@ -41,6 +41,27 @@ static void add_ways(const check_samples *s, way_sums way[2])
     }
 }
 
+/* Of a turn, over which an angle goes that goes round; of the rms of all, that a current varies by which
+ * stands. */
+#define ROUND_rad 5.0
+#define STANDS    0.1
+
+int hci_check_standing_phase(const check_samples *s)
+{
+    double square = 0.0, varies = 0.0, most = 0.0;
+    int largest = -1;
+    if (!s->phase || !s->theta || !(hci_peak_to_peak(s->theta, s->count) > ROUND_rad)) return -1;
+    for (int phase = 0; phase < 3; ++phase) {
+        if (!s->phase[phase]) continue;
+        const double mean = hci_mean(s->phase[phase], s->count);
+        varies += hci_mean_square_about(s->phase[phase], s->count, mean);
+        square += hci_mean_square_about(s->phase[phase], s->count, 0.0);
+        if (fabs(mean) > most) largest = phase;
+        most = fmax(most, fabs(mean));
+    }
+    return varies < STANDS * STANDS * square ? largest : -1;
+}
+
 bool hci_check_currents_are_exchanged(const check_samples *s)
 {
     way_sums way[2] = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
