@@ -12,12 +12,17 @@
 /* Times, by which a torque is off that which a current makes, at most. */
 #define SUCH 1.5
 
+/* The torque is such as this current would make as i_q. */
+static bool makes_it(const check_run *r, double constant_Nm_per_A, double current_A)
+{
+    const double as_q_Nm = fabs(constant_Nm_per_A * current_A), found_Nm = fabs(r->torque_mean);
+    return found_Nm < SUCH * as_q_Nm && as_q_Nm < SUCH * found_Nm;
+}
+
 /* The torque of a load is that which i_d would make as i_q, and i_q makes none of it. */
 static bool makes_it_as_q(const check_run *r, double constant_Nm_per_A)
 {
-    const double as_q_Nm = fabs(constant_Nm_per_A * r->dq.re), found_Nm = fabs(r->torque_mean);
-    return fabs(r->dq.im) < ALONG_D * fabs(r->dq.re) && found_Nm < SUCH * as_q_Nm &&
-           as_q_Nm < SUCH * found_Nm;
+    return fabs(r->dq.im) < ALONG_D * fabs(r->dq.re) && makes_it(r, constant_Nm_per_A, r->dq.re);
 }
 
 /* The first of the loads on a torque sensor, where all of them are so; NULL: they are not. */
@@ -65,15 +70,21 @@ void hci_check_add_exchanged_currents(const check_data *data, hci_check *check)
  * 0. */
 #define ONE_SIGN 3.0
 
+/* Zeros of sensors beside friction stand as well: their torque is another one, or other currents turn. */
 static const check_run *standing_run(const check_data *data)
 {
+    const check_interpretation as = hci_check_as_declared();
+    const double constant = 1.5 * hci_check_model_of(data, &as).emf_Nm_per_A;
+    const check_run *first = NULL;
     for (size_t k = 0; k < data->runs; ++k) {
         const check_run *r = &data->run[k];
-        if (r->has_abc && r->standing_phase >= 0 && hci_check_torque_is_measured(r) &&
-            hci_check_has_current(data, r) && fabs(r->torque_mean) > ONE_SIGN * sqrt(r->torque_variance))
-            return r;
+        if (!r->has_abc || !hci_check_has_current(data, r)) continue;
+        if (r->standing_phase < 0) return NULL;
+        const bool is_one_sign = fabs(r->torque_mean) > ONE_SIGN * sqrt(r->torque_variance);
+        if (!first && hci_check_torque_is_measured(r) && is_one_sign && makes_it(r, constant, r->standing_A))
+            first = r;
     }
-    return NULL;
+    return first;
 }
 
 void hci_check_add_standing_currents(const check_data *data, hci_check *check)

@@ -1039,6 +1039,9 @@ static void test_degrees_in_one_recording(void)
 }
 
 MISTAKE(dq_for_phases, noise_and_torque(x); x->i[0] = 0.1; x->i[1] = 8.0; x->i[2] = -8.1)
+MISTAKE(zeros_beside_friction, x->torque_Nm = 0.0; noise_and_torque(x); x->torque_Nm -= 0.03; x->i[0] = 0.5;
+        x->i[1] = 0.8; x->i[2] = -1.3)
+MISTAKE(zeros_beside_a_load, zeros_beside_friction(x); x->torque_Nm -= 0.17)
 MISTAKE(fed_with_direct_current, dq_for_phases(x); x->torque_Nm = 1.2 * sin(4.0 * x->theta))
 
 /* i_d and i_q under the names of phases; a winding that is fed with direct current swings as the rotor turns.
@@ -1047,6 +1050,12 @@ static void test_currents_of_the_rotor_frame_under_names_of_phases(void)
 {
     check_three(8.0, (mistake *const[]){dq_for_phases, dq_for_phases, dq_for_phases});
     expect_first("currents_of_rotor_frame", "the phase currents in first.csv stand while the rotor turns");
+    remove_files();
+    check_three(8.0, (mistake *const[]){zeros_beside_friction, zeros_beside_friction, zeros_beside_friction});
+    TEST_ASSERT_FALSE(has_finding("currents_of_rotor_frame"));
+    remove_files();
+    check_three(8.0, (mistake *const[]){zeros_beside_a_load, noise_and_torque, noise_and_torque});
+    TEST_ASSERT_FALSE(has_finding("currents_of_rotor_frame"));
     remove_files();
     check_three(8.0, (mistake *const[]){fed_with_direct_current, none, none});
     TEST_ASSERT_FALSE(has_finding("currents_of_rotor_frame"));

@@ -116,8 +116,10 @@ typedef struct {
     double given_zero_rad; /* electrical, that the user adds to the angle; 0: none */
     bool is_exchanged;     /* angle and torque stand in each other's column, as it seems */
     bool currents_are_exchanged; /* i_d and i_q, of a file without a torque */
-    int standing_phase; /* the largest of phase currents that stand while the angle goes round; -1: they turn */
-    bool dq_is_steady;           /* i_d, i_q are more than noise about 0 */
+    int standing_phase; /* the largest of phase currents that stand while the angle goes round; -1: they turn
+                         */
+    double standing_A;  /* its size */
+    bool dq_is_steady;  /* i_d, i_q are more than noise about 0 */
     bool has_abc, has_dq, has_voltage, has_speed, has_torque;
     bool has_phase_voltage, has_dq_voltage; /* one of them where has_voltage */
     bool has_line_voltage;                  /* those of the phases are made of it */

@@ -46,7 +46,7 @@ static void add_ways(const check_samples *s, way_sums way[2])
 #define ROUND_rad 5.0
 #define STANDS    0.1
 
-int hci_check_standing_phase(const check_samples *s)
+int hci_check_standing_phase(const check_samples *s, double *mean_A)
 {
     double square = 0.0, varies = 0.0, most = 0.0;
     int largest = -1;
@@ -59,6 +59,7 @@ int hci_check_standing_phase(const check_samples *s)
         if (fabs(mean) > most) largest = phase;
         most = fmax(most, fabs(mean));
     }
+    *mean_A = most;
     return varies < STANDS * STANDS * square ? largest : -1;
 }
 

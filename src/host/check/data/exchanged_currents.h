@@ -10,7 +10,7 @@
 bool hci_check_currents_are_exchanged(const check_samples *samples);
 
 /* Of phase currents that stand while the angle goes round: the phase with the largest, which i_q would be;
- * -1: they do not stand, or the angle does not go round. O(samples). */
-int hci_check_standing_phase(const check_samples *samples);
+ * -1: they do not stand, or the angle does not go round. mean_A: out, its mean. O(samples). */
+int hci_check_standing_phase(const check_samples *samples, double *mean_A);
 
 #endif

@@ -142,7 +142,7 @@ static hci_status run_take(const hci_csv *csv, check_data *data, check_run *file
     }
     if (!status) file->current_way = current_way(&s, file);
     if (!status) file->is_exchanged = hci_check_is_exchanged(s.theta, s.torque, s.count);
-    if (!status) file->standing_phase = file->has_abc ? hci_check_standing_phase(&s) : -1;
+    if (!status) file->standing_phase = file->has_abc ? hci_check_standing_phase(&s, &file->standing_A) : -1;
     if (!status && !s.torque) file->currents_are_exchanged = hci_check_currents_are_exchanged(&s);
     if (!status && !parts_take(&s, file, data)) status = hci_note_memory(note, file->path, "its samples");
     hci_check_samples_release(&s);
