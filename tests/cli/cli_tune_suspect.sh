@@ -298,6 +298,10 @@ says ' fits: begin again with it if that is meant\. Else .* or the column is a f
     'The logs alone do not tell which: voltages of the open machine tell the number of the sheet, a known weight on a lever the torque\. Nothing was solved'
 run 1 tune newton_none.csv newton_two.csv newton_three.csv --pole-pairs 4 --torque-constant 0.45 -o point
 says 'The torque is 8\.[0-9]* times what the currents make.*a force in N on a lever of 12[0-9] mm.*voltages of the open machine tell the number of the sheet, a known weight on a lever the torque'
+# a log of a motor of other pole pairs and another torque constant: it is named, and no unit of a torque that its currents make in a wrong frame
+run 1 tune even.csv two.csv --pole-pairs 7 --kv 100 -o point
+says '^a convention is broken: The phase currents of two\.csv go round 4 times in a turn of its shaft, and the motor has 7 pole pairs: it is a log of another motor'
+check "a unit of the torque is said" [ "$(grep -c 'magnets of no motor' stdout)" = 0 ]
 # i_d and i_q exchanged: the load makes no torque along i_d
 for log in two three; do
     awk -F, -v OFS=, -v i="$log" 'NR == 1 { print "time_s,theta_m_rad,id_A,iq_A,torque_Nm"; next } { print $1, $2, (i == "two" ? 2 : 3), 0.01 * sin($2), $6 }' $log.csv >dq_$log.csv
