@@ -131,7 +131,6 @@ static bool say_unlike(const cli_tuning *t, char *text, size_t size)
     return true;
 }
 
-#define OF_RMS 2.8 /* peak to peak, of a sine */
 #define LEAVES 2.0 /* times what a plain sine has in the model */
 
 /* A model that does not explain the recordings, and leaves twice as much of their ripple as a plain sine has
@@ -143,7 +142,7 @@ static bool say_little(const cli_tuning *t, char *text, size_t size)
     if (!hci_expected_ripple_is_doubtful(&s->expected) || !hci_tuning_knows_ripple(s)) return false;
     const double left_Nm = cli_tune_unexplained_Nm(t);
     cli_tune_swing_of(t, &before_Nm, &after_Nm);
-    if (!(OF_RMS * left_Nm > LEAVES * before_Nm)) return false;
+    if (!(CLI_TUNE_SWING_OF_RMS * left_Nm > LEAVES * before_Nm)) return false;
     snprintf(
         text, size,
         "The model does not explain the recordings: up to %.2g N·m rms of their ripple is not in it, and a "

@@ -23,6 +23,9 @@ bool cli_tune_is_unpromised(const cli_tuning *tune);
 /* Of measured and calculated torque, or its inverse: beyond it no magnet and no sensor is meant. */
 #define CLI_TUNE_ANOTHER_TORQUE 2.5
 
+/* Peak to peak of a sine, over its rms: what a ripple of known rms swings by. */
+#define CLI_TUNE_SWING_OF_RMS 2.8
+
 /* Which recording has its torque in another unit than the others, of which one shows what its currents make;
  * false: none has. text: of size bytes. */
 bool cli_tune_say_mixed_torque(const cli_tuning *tune, char *text, size_t size);

@@ -59,7 +59,6 @@ static void say_bound(const cli_tuning *t, double before_Nm, double after_Nm, ch
                  hci_ripple_bound_as_said(e->peak_to_peak_Nm));
 }
 
-#define OF_RMS      2.8 /* peak to peak, of a sine */
 #define NEARLY_NONE 0.1 /* of the ripple of the recordings */
 
 /* What is not in the model, where it is little of the ripple that was recorded. */
@@ -68,7 +67,7 @@ static bool has_the_ripple(const cli_tuning *t)
     const cli_tune_ripple x = cli_tune_recorded_ripple(t);
     const double left_Nm = cli_tune_unexplained_Nm(t);
     return t->diagnosis.verdict == HCI_DIAGNOSIS_PARTLY && x.run < t->runs.count &&
-           OF_RMS * left_Nm < NEARLY_NONE * x.peak_to_peak_Nm;
+           CLI_TUNE_SWING_OF_RMS * left_Nm < NEARLY_NONE * x.peak_to_peak_Nm;
 }
 
 /* Of a model that has the ripple, and not the rest. */

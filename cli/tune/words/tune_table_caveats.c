@@ -147,7 +147,7 @@ static void append_of_gain(cli_tuning *t)
 {
     const double gain = common_gain(t);
     if (fabs(gain) > 0.0) append_of_common_gain(t, gain, -gain / (1.0 + gain));
-    if (strstr(t->solution.corrections, " A)"))
+    if (offsets_Nm(t) > 0.0)
         cli_tune_caveat(
             t,
             "The offsets of the currents are those of the logs: a drive that nulls its sensors at each start "

@@ -3,6 +3,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Negative: no limit. Written only while a test has set a limit. */
 static long remaining = -1;
@@ -86,4 +87,18 @@ void *hci_memory_resize(void *block, size_t count, size_t size)
 void hci_memory_free(void *block)
 {
     free(block);
+}
+
+char *hci_memory_text_part(const char *text, size_t length)
+{
+    char *copy = hci_memory_malloc(length + 1);
+    if (copy == NULL) return NULL;
+    memcpy(copy, text, length);
+    copy[length] = '\0';
+    return copy;
+}
+
+char *hci_memory_text(const char *text)
+{
+    return hci_memory_text_part(text, strlen(text));
 }

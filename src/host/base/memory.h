@@ -10,6 +10,10 @@ void *hci_memory_new(size_t count, size_t size);
 void *hci_memory_resize(void *block, size_t count, size_t size);
 void hci_memory_free(void *block);
 
+/* A copy of a text, or of its first bytes, with a 0 behind; NULL when memory is out. O(length). */
+char *hci_memory_text(const char *text);
+char *hci_memory_text_part(const char *text, size_t length);
+
 /* malloc and realloc by their own signatures, for the hooks of other libraries (calloc: hci_memory_new; free:
  * hci_memory_free). */
 void *hci_memory_malloc(size_t size);

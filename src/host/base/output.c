@@ -176,12 +176,11 @@ static hci_status open_set(const char *folder, hci_output **output, hci_note *no
     if (*folder == '\0')
         return output_error("output", note, "the folder has no name", "name one, or . for this one");
     hci_output *set = hci_memory_new(1, sizeof *set);
-    if (set != NULL) set->folder = hci_memory_malloc(strlen(folder) + 1);
+    if (set != NULL) set->folder = hci_memory_text(folder);
     if (set == NULL || set->folder == NULL) {
         hci_memory_free(set);
         return hci_note_memory(note, folder, "writing it");
     }
-    memcpy(set->folder, folder, strlen(folder) + 1);
     hci_status status = make_folder(set, note);
     if (!status) {
         enter(set);
@@ -207,11 +206,9 @@ hci_status hci_output_open_file(const char *path, hci_output **output, hci_note 
 {
     const char *slash = strrchr(path, '/');
     const size_t length = slash == NULL ? 1 : slash == path ? 1 : (size_t)(slash - path);
-    char *folder = hci_memory_malloc(length + 1);
+    char *folder = hci_memory_text_part(slash == NULL ? "." : path, length);
     *output = NULL;
     if (folder == NULL) return hci_note_memory(note, NULL, "the output");
-    memcpy(folder, slash == NULL ? "." : path, length);
-    folder[length] = '\0';
     hci_status status = hci_output_open(folder, output, note);
     hci_memory_free(folder);
     if (!status) status = hci_output_file(*output, slash == NULL ? path : slash + 1, note);

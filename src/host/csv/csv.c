@@ -442,14 +442,9 @@ static hci_status read_path(const char *path, bool leaves_holes, hci_csv **csv, 
     hci_csv *table = hci_memory_new(1, sizeof *table);
     if (table == NULL) return hci_note_memory(note, path, "reading it");
     table->leaves_holes = leaves_holes;
-    table->path = hci_memory_malloc(strlen(path) + 1);
-    hci_status status = HCI_ERROR_MEMORY;
-    if (table->path == NULL) {
-        hci_note_memory(note, path, "reading it");
-    } else {
-        memcpy(table->path, path, strlen(path) + 1);
-        status = read_table(table, note);
-    }
+    table->path = hci_memory_text(path);
+    hci_status status =
+        table->path == NULL ? hci_note_memory(note, path, "reading it") : read_table(table, note);
     if (!status) {
         *csv = table;
     } else {

@@ -32,13 +32,12 @@ static size_t header_size(const hci_csv_memory *from)
 
 static hci_status fill(const hci_csv_memory *from, hci_csv *csv, hci_note *note)
 {
-    csv->path = hci_memory_malloc(strlen(from->name) + 1);
+    csv->path = hci_memory_text(from->name);
     csv->text = hci_memory_malloc(header_size(from));
     csv->index = hci_memory_new(1 + from->columns, sizeof *csv->index);
     csv->shown = hci_memory_malloc(SHOWN_SIZE);
     if (!csv->path || !csv->text || !csv->index || !csv->shown)
         return hci_note_memory(note, from->name, "its columns");
-    memcpy(csv->path, from->name, strlen(from->name) + 1);
     csv->columns = from->columns;
     csv->records = 1 + from->rows;
     csv->number = from->value;

@@ -19,15 +19,6 @@
 
 #define FILE_NAME "columns.csv"
 
-static char *copy_of(const char *text, size_t length)
-{
-    char *copy = hci_memory_malloc(length + 1);
-    if (copy == NULL) return NULL;
-    memcpy(copy, text, length);
-    copy[length] = '\0';
-    return copy;
-}
-
 /* ---- quantities ---- */
 
 /* The quantity that a name asks for, in whatever unit; HCI_RUN_COLUMN_COUNT: none. */
@@ -321,8 +312,8 @@ hci_status hci_column_names_add(hci_column_names *names, const char *text, hci_n
     while (length > 1 && text[length - 1] == ' ')
         --length;
     const char *column = equals + 1 + (equals[2] != '\0' ? strspn(equals + 1, " ") : 0);
-    const hci_column_name item = {copy_of(text, length), copy_of(column, strlen(column)),
-                                  copy_of(from, strlen(from))};
+    const hci_column_name item = {hci_memory_text_part(text, length), hci_memory_text(column),
+                                  hci_memory_text(from)};
     return add(names, item, HCI_ERROR_ARGUMENT, note);
 }
 
@@ -337,8 +328,9 @@ hci_status hci_column_names_add_text(hci_column_names *names, const char *text, 
                                 "%.300s: found `%.200s`, expected NAME=COLUMN;NAME=COLUMN such as "
                                 "torque_Nm=AI3",
                                 from, part);
-        const hci_column_name item = {copy_of(part, name), copy_of(part + name + 1, length - name - 1),
-                                      copy_of(from, strlen(from))};
+        const hci_column_name item = {hci_memory_text_part(part, name),
+                                      hci_memory_text_part(part + name + 1, length - name - 1),
+                                      hci_memory_text(from)};
         status = add(names, item, HCI_ERROR_INPUT, note);
         part += length;
     }
@@ -386,8 +378,7 @@ static hci_status read_row(hci_column_names *names, const hci_csv *csv, size_t r
     if (!status) status = hci_csv_text(csv, "column", row, &column, note);
     if (status) return status;
     snprintf(from, sizeof from, "%s:%zu", hci_quote_path(hci_csv_path(csv), path), hci_csv_line(csv, row));
-    const hci_column_name item = {copy_of(name, strlen(name)), copy_of(column, strlen(column)),
-                                  copy_of(from, strlen(from))};
+    const hci_column_name item = {hci_memory_text(name), hci_memory_text(column), hci_memory_text(from)};
     return add(names, item, HCI_ERROR_INPUT, note);
 }
 

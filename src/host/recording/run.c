@@ -743,10 +743,8 @@ static hci_status take(reader *r, const hci_csv *csv)
     memcpy(run->time_like, r->columns.time_like, sizeof run->time_like);
     run->row = r->columns.row;
     r->columns.row = NULL;
-    run->name = hci_memory_malloc(strlen(path) + 1);
-    if (run->name == NULL) return memory_error(r);
-    memcpy(run->name, path, strlen(path) + 1);
-    return read_all(r);
+    run->name = hci_memory_text(path);
+    return run->name == NULL ? memory_error(r) : read_all(r);
 }
 
 /* Those asked for, or those in the file, which must not contradict each other. */

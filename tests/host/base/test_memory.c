@@ -441,6 +441,22 @@ static void test_writing(void)
     hci_solution_release(&solution);
 }
 
+/* Of a text that has no 0 behind the part. */
+static void test_a_part_of_a_text(void)
+{
+    char *begin = hci_memory_text_part("torque_Nm", 6), *none = hci_memory_text_part("x", 0);
+    char *all = hci_memory_text("torque_Nm");
+    TEST_ASSERT_EQUAL_STRING("torque", begin);
+    TEST_ASSERT_EQUAL_STRING("", none);
+    TEST_ASSERT_EQUAL_STRING("torque_Nm", all);
+    hci_memory_free(begin);
+    hci_memory_free(none);
+    hci_memory_free(all);
+    hci_memory_fail_after(0);
+    TEST_ASSERT_NULL(hci_memory_text("torque_Nm"));
+    hci_memory_fail_after(-1);
+}
+
 int main(int argc, char **argv)
 {
     every = argc > 1 && strcmp(argv[1], "every") == 0;
@@ -450,6 +466,7 @@ int main(int argc, char **argv)
     }
     UNITY_BEGIN();
     route_suitesparse();
+    RUN_TEST(test_a_part_of_a_text);
     RUN_TEST(test_reading);
     RUN_TEST(test_sparse_solvers);
     RUN_TEST(test_solving_a_square_system);

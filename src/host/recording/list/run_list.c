@@ -54,13 +54,6 @@ static hci_status check_once(const list_reader *l, size_t row, const char *file)
     return HCI_OK;
 }
 
-static char *copy_of(const char *text)
-{
-    char *copy = hci_memory_malloc(strlen(text) + 1);
-    if (copy != NULL) memcpy(copy, text, strlen(text) + 1);
-    return copy;
-}
-
 /* `file` relative to the folder of the list; the caller frees it. */
 static char *path_of(const char *list, const char *file)
 {
@@ -213,7 +206,7 @@ static hci_status read_named(const list_reader *l, size_t row, const hci_run_opt
     l->runs->count = row + 1;
     l->runs->origin[row] = (hci_run_origin){path, hci_column_names_text(names, 2), row};
     hci_memory_free(run->name);
-    run->name = copy_of(file);
+    run->name = hci_memory_text(file);
     return run->name != NULL && l->runs->origin[row].columns != NULL ? HCI_OK : memory_error(l);
 }
 
@@ -297,7 +290,7 @@ static hci_status read_rows(const list_reader *l)
     l->runs->run = hci_memory_new(rows, sizeof *l->runs->run);
     l->runs->role = hci_memory_new(rows, sizeof *l->runs->role);
     l->runs->origin = hci_memory_new(rows, sizeof *l->runs->origin);
-    l->runs->list = copy_of(hci_csv_path(l->csv));
+    l->runs->list = hci_memory_text(hci_csv_path(l->csv));
     if (l->runs->run == NULL || l->runs->role == NULL || l->runs->origin == NULL || l->runs->list == NULL)
         return memory_error(l);
     for (size_t row = 0; row < rows && !status; ++row) {

@@ -184,8 +184,7 @@ static bool point_take(const torque_map *t, size_t point, hci_run *to)
     to->count = t->row_count[point];
     to->is_point = true;
     to->remark = (hci_note){{0}};
-    to->name = hci_memory_malloc(strlen(name) + 1);
-    if (to->name) memcpy(to->name, name, strlen(name) + 1);
+    to->name = hci_memory_text(name);
     const bool taken = columns_take(t, point, to) && to->name;
     if (taken) angle_unwrap(to);
     return taken;
@@ -206,13 +205,6 @@ static void remark_add(const torque_map *t, hci_run *first)
 }
 
 /* ---- the list ---- */
-
-static char *copy_of(const char *text)
-{
-    char *copy = hci_memory_malloc(strlen(text) + 1);
-    if (copy) memcpy(copy, text, strlen(text) + 1);
-    return copy;
-}
 
 /* Room for `more` entries behind run k; false when memory is out. */
 static bool list_widen(hci_runs *runs, size_t k, size_t more)
@@ -245,8 +237,8 @@ static bool list_replace(hci_runs *runs, size_t k, hci_run *points, size_t count
     memcpy(runs->run + k, points, count * sizeof *points);
     memset(points, 0, count * sizeof *points);
     for (size_t p = 1; p < count && runs->origin; ++p) {
-        runs->origin[k + p].path = copy_of(runs->origin[k].path);
-        runs->origin[k + p].columns = copy_of(runs->origin[k].columns);
+        runs->origin[k + p].path = hci_memory_text(runs->origin[k].path);
+        runs->origin[k + p].columns = hci_memory_text(runs->origin[k].columns);
         if (!runs->origin[k + p].path || !runs->origin[k + p].columns) return false;
     }
     return true;
