@@ -377,11 +377,10 @@ static void append_of_corrections(cli_tuning *t)
 {
     const char *open = open_correction(t);
     if (cli_tune_is_calculated(t))
-        cli_tune_caveat(
-            t,
-            "The model takes the angle or the currents of the calculation to be off, in the order of these "
-            "lines, and the table is over what they make: in the drive there is nothing to correct as long "
-            "as its zero of the angle is that of the magnets:");
+        cli_tune_caveat(t, "The table is over what the model makes of the angle and the currents of the "
+                           "calculation, in the order "
+                           "of these lines; a drive whose zero of the angle is that of the calculation does "
+                           "the same before:");
     else if (open)
         cli_tune_caveat(
             t,
