@@ -39,7 +39,7 @@ for logs in "$line" "idle.csv idle_back.csv half.csv full.csv" "idle.csv light.c
     run 0 check unsaid $logs
     says '^consistent'
     check "$logs: a slip is possible: $(grep '^  possible' "$work/stdout")" [ "$(grep -c '^  possible' "$work/stdout")" -eq 0 ]
-    says_once 'saliency a reluctance torque that the machine does not declare is in the torques, as of L_q - L_d = 0\.0[234][0-9]* H .*, or another scale of back-EMF, currents or torque \([0-9]+ % of it are left open\): a load at another i_d, best 0, '
+    says_once 'saliency a reluctance torque that no inductance of the machine declares is in the torques, as of L_q - L_d = 0\.0[234][0-9]* H .*, or another scale of back-EMF, currents or torque \([0-9]+ % of it are left open\): a load at another i_d, best 0, '
 done
 run 0 check unsaid $line --json
 check "no saliency in the summary" grep -qE '"saliency_H":[[:space:]]*0\.0(3[5-9]|4[0-4])' "$work/stdout"
@@ -75,7 +75,7 @@ loads
 tune="tune $line --torque 8"
 run 1 $tune $sheet --flux 0.15 -o tuned
 check "a convention is broken: $(head -n 1 "$work/stdout")" [ "$(grep -c 'convention is broken' "$work/stdout")" -eq 0 ]
-says_once 'a reluctance torque that the machine does not declare .* --inductance-d and --inductance-q declare it'
+says_once 'a reluctance torque that no inductance of the machine declares .* --inductance-d and --inductance-q declare it'
 whatever=$("$hci_solve" $tune $sheet --flux 0.15 --inductance-d 0.01 --inductance-q 0.05 -o salient 2>&1)
 check "no reluctance torque is declared" grep -q '^inductance_q,0.05,H' salient/machine/machine.csv
 check "no inductance.csv" [ -s salient/machine/inductance.csv ]

@@ -49,7 +49,7 @@ check "tune: exit code $?" [ -s "$work/tuned/commands.sh" ]
 check "tune: the map is not read as one file" [ "$(grep -c 'samples at each operating point' "$work/tuned.out")" = 1 ]
 tr -s '[:space:]' ' ' <"$work/tuned.out" >"$work/tuned.words"
 check "tune: what is to be calculated" grep -q 'To be calculated, each over an electrical turn' "$work/tuned.words"
-for words in 'On the bench' 'turns forward' 'turns at' 'The sensors of the drive' 'does not declare is in the torques'; do
+for words in 'On the bench' 'turns forward' 'turns at' 'The sensors of the drive' 'that no inductance of the machine declares'; do
     check "tune: $words" [ "$(grep -c "$words" "$work/tuned.words")" = 0 ]
 done
 # The sine is that of the back-EMF: what reluctance adds to its torque is shown.

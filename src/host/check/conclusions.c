@@ -327,7 +327,7 @@ const char *hci_check_saliency_words(const hci_check *check, char *text, size_t 
     if (isnan(check->saliency_H)) return text;
     const int used =
         snprintf(text, size,
-                 "a reluctance torque that the machine does not declare is in the torques, as of "
+                 "a reluctance torque that no inductance of the machine declares is in the torques, as of "
                  "L_q - L_d = %.2g H (%.2g H at the largest i_q)",
                  check->saliency_H, check->saliency_at_load_H);
     if (used < 0 || (size_t)used >= size) return text;

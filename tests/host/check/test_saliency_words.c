@@ -23,7 +23,7 @@ void tearDown(void)
 }
 
 #define BEGIN                                                                                                \
-    "a reluctance torque that the machine does not declare is in the torques, as of "                        \
+    "a reluctance torque that no inductance of the machine declares is in the torques, as of "               \
     "L_q - L_d = 0.0012 H (0.00098 H at the largest i_q)"
 
 static void test_words_of_a_saliency(void)
