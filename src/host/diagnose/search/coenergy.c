@@ -359,7 +359,8 @@ static void apply(comparison *c, const choice *how)
     c->all.count = kept;
 }
 
-/* The highest order that the samples of every run in use tell, MOST_ORDER at the most. */
+/* The highest order that the samples of every run in use tell, MOST_ORDER at the most. Those of a part of a
+ * turn stand between those of other turns, but not where they were calculated at even steps. */
 static int resolved_order(const hci_regression *e)
 {
     double order = MOST_ORDER;
@@ -367,7 +368,8 @@ static int resolved_order(const hci_regression *e)
         const hci_binned_sample *first = e->samples->sample + x->first, *last = first + x->count - 1;
         const double span = fabs(last->reading.theta_m_rad - first->reading.theta_m_rad);
         const double turns = span * e->machine->pole_pairs / (2.0 * HCI_PI);
-        if (turns > WHOLE_TURN) order = fmin(order, TOLD * (double)x->count / turns);
+        const bool is_told = turns > WHOLE_TURN || (turns > 0.0 && e->runs[x->run].is_tabulated);
+        if (is_told) order = fmin(order, TOLD * (double)x->count / turns);
     }
     return (int)order;
 }
