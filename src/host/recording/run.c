@@ -704,6 +704,14 @@ static hci_status check_finite(const reader *r)
     return HCI_OK;
 }
 
+/* A sensor that reads shows noise, or the steps of its converter. */
+static void find_whether_off(hci_run *run)
+{
+    run->no_current = true;
+    for (size_t k = 0; k < 3 * run->count && run->no_current; ++k)
+        run->no_current = run->i_A[k] == 0.0;
+}
+
 static hci_status read_all(reader *r)
 {
     hci_run *run = r->run;
@@ -717,6 +725,7 @@ static hci_status read_all(reader *r)
     if (!status) status = follow_angle(r, path);
     if (!status) status = complete_speed(r, path);
     if (!status) status = read_currents(r);
+    if (!status && run->i_A) find_whether_off(run);
     if (!status) status = read_voltages(r);
     if (!status) status = read_column(r, HCI_RUN_TEMPERATURE, &run->temperature_C);
     if (!status) status = read_torque(r);

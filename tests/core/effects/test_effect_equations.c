@@ -672,6 +672,25 @@ static void test_readings_and_back(void)
     }
 }
 
+/* Of a drive that is switched off: no zero of a sensor is in what was written for it. */
+static void test_no_current_is_none(void)
+{
+    el_list l = {0};
+    double by[2] = {1.0, 1.0};
+    el_add(&l, "current_offset", "a", 0.0, 0.2);
+    el_add(&l, "current_offset", "b", 0.0, -0.1);
+    const hci_sample off = {.theta_m_rad = 0.3, .speed_rad_per_s = 2.0, .no_current = true};
+    const hci_sample truth = hci_effects_undo(&l.list, P, &off), back = hci_effects_sense(&l.list, P, &off);
+    for (int s = 0; s < 3; ++s) {
+        TEST_ASSERT_EQUAL_DOUBLE(0.0, truth.i_abc[s]);
+        TEST_ASSERT_EQUAL_DOUBLE(0.0, back.i_abc[s]);
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(1e-15, hci_torque_at(&m.machine, P * 0.3, off.i_abc),
+                              hci_effects_predict(&m.machine, &l.list, &off, by));
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, by[0]);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, by[1]);
+}
+
 /* The currents by themselves, where the angle changes none: it stays as it was read. */
 static void test_currents_and_back(void)
 {
@@ -1262,6 +1281,7 @@ int main(void)
     RUN_TEST(test_predicted_again);
     RUN_TEST(test_regressors_of_linear_types);
     RUN_TEST(test_readings_of_a_true_state);
+    RUN_TEST(test_no_current_is_none);
     RUN_TEST(test_readings_and_back);
     RUN_TEST(test_currents_and_back);
     RUN_TEST(test_delay_of_a_harmonic);

@@ -85,6 +85,19 @@ static void refused(const char *content, const char *why)
     TEST_ASSERT_NULL(run.name);
 }
 
+/* Every current 0, or no column of them; one step of a converter is a sensor that reads. */
+static void test_a_drive_that_is_switched_off(void)
+{
+    read_text("time_s,theta_m_rad,id_A,iq_A,torque_Nm\n0,0,0,0,1\n0.1,0.1,0,0,2\n0.2,0.2,0,0,1\n", 4);
+    TEST_ASSERT_TRUE(run.no_current);
+    hci_run_release(&run);
+    read_text("time_s,theta_m_rad,torque_Nm\n0,0,1\n0.1,0.1,2\n0.2,0.2,1\n", 4);
+    TEST_ASSERT_TRUE(run.no_current);
+    hci_run_release(&run);
+    read_text("time_s,theta_m_rad,id_A,iq_A,torque_Nm\n0,0,0,0,1\n0.1,0.1,0.1,0,2\n0.2,0.2,0,0,1\n", 4);
+    TEST_ASSERT_FALSE(run.no_current);
+}
+
 /* ---- a motion ---- */
 
 static double angle_at(double t)
@@ -726,6 +739,7 @@ static void test_measured_tables_without_time(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_a_drive_that_is_switched_off);
     RUN_TEST(test_wraps_of_every_kind_are_taken_out);
     RUN_TEST(test_unwrapped_angles_stay);
     RUN_TEST(test_an_electrical_angle_within_a_turn_knows_no_turn);
