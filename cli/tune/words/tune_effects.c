@@ -13,11 +13,26 @@ int cli_tune_place_of(const hci_effect *e, const char *name, double order)
     return -1;
 }
 
+/* What the sine and the cosine of an order are called: of phases that are alike, or of one sequence. */
+static const char *const WAVE[][2] = {
+    {"sine", "cosine"}, {"pos_sine", "pos_cosine"}, {"neg_sine", "neg_cosine"}, {"zero_sine", "zero_cosine"}};
+
+/* Those of a value; NULL: it is none. */
+static const char *const *wave_of(const hci_effect *e, size_t k)
+{
+    const char *name = e->type->parameter[e->term[k].parameter].name;
+    for (size_t w = 0; w < sizeof WAVE / sizeof *WAVE; ++w)
+        if (strcmp(WAVE[w][0], name) == 0 || strcmp(WAVE[w][1], name) == 0) return WAVE[w];
+    return NULL;
+}
+
 /* The amplitude of the order of a value, at its sine, or at a cosine that has none beside it; else 0. */
 double cli_tune_amplitude_of(const hci_effect *e, size_t k, double *std_error)
 {
-    const int place[] = {cli_tune_place_of(e, "sine", e->term[k].order),
-                         cli_tune_place_of(e, "cosine", e->term[k].order)};
+    const char *const *wave = wave_of(e, k);
+    if (!wave) return 0.0;
+    const int place[] = {cli_tune_place_of(e, wave[0], e->term[k].order),
+                         cli_tune_place_of(e, wave[1], e->term[k].order)};
     double amplitude = 0.0;
     if ((place[0] >= 0 ? place[0] : place[1]) != (int)k) return 0.0;
     *std_error = 0.0;

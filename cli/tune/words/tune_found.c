@@ -43,17 +43,21 @@ static void say_orders(cli_tuning *t, hci_tuning_part part, const hci_effect *e,
     double above = HUGE_VAL;
     for (size_t shown = 0; shown < CLI_TUNE_ORDERS_SAID; ++shown) {
         double most = 0.0, error = 0.0, order = 0.0;
+        const char *meaning = "";
         char name[2 * CLI_TUNE_ORDER];
         for (size_t k = 0; k < e->count; ++k) {
             double std_error = 0.0;
             const double amplitude = cli_tune_amplitude_of(e, k, &std_error);
             if (amplitude < above && amplitude > most)
-                most = amplitude, error = std_error, order = e->term[k].order;
+                most = amplitude, error = std_error, order = e->term[k].order,
+                meaning = e->type->parameter[e->term[k].parameter].meaning;
         }
         if (!(most > 0.0) || (shown > 0 && most <= error))
             return; /* an order within its error is none to say */
-        name_order(t, order, in_pairs, name);
-        hci_tuning_say(&t->tuning, part, "  order %s: %.4g ± %.1g %s", name, most, error,
+        const bool is_of_sequence = strstr(meaning, " sequence") != NULL;
+        name_order(t, order, in_pairs && !is_of_sequence, name);
+        hci_tuning_say(&t->tuning, part, "  order %s%s%.*s: %.4g ± %.1g %s", name, is_of_sequence ? ", " : "",
+                       is_of_sequence ? (int)strcspn(meaning, ",") : 0, meaning, most, error,
                        unit_for_people(e->type->parameter[0].unit));
         above = most;
     }

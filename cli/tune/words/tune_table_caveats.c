@@ -208,7 +208,7 @@ static bool is_of_drive_zero(const cli_tuning *t)
 static void append_of_offset(cli_tuning *t)
 {
     const char *offset = cli_tune_offset(t);
-    if (t->is_solved && offset && !t->took_drive_zero)
+    if (t->is_solved && t->size != CLI_TUNE_EXCESS && offset && !t->took_drive_zero)
         cli_tune_caveat(
             t,
             "The table is over the angle of the logs with --angle-offset %s: where the drive counts "

@@ -1,6 +1,8 @@
 /* i_d and i_q of a solution over the electrical angle. */
 #include "host/plot/solution_curves.h"
 
+#include <math.h>
+
 enum { STRIPS = 60 };
 
 typedef struct {
@@ -43,12 +45,15 @@ static void draw_strips(hci_output *out, const panel *p, hci_dq plain)
     }
 }
 
+#define OF_Q 0.01 /* i_d to i_q of a plain sine that is i_q alone */
+
 void hci_panel_dq(hci_output *out, const hci_solution_curves *c, const hci_svg_box *box)
 {
-    static const hci_svg_entry LEGEND[] = {{HCI_SVG_LINE, "before", "before (i_d = 0)"},
-                                           {HCI_SVG_LINE, "b", "i_d after"},
-                                           {HCI_SVG_LINE, "a", "i_q after"}};
     const hci_dq plain = hci_curve_vector(&c->solution->plain, 1, 0.0);
+    const bool is_of_q = fabs(plain.d) < OF_Q * fabs(plain.q);
+    const hci_svg_entry LEGEND[] = {{HCI_SVG_LINE, "before", is_of_q ? "before (i_d = 0)" : "before"},
+                                    {HCI_SVG_LINE, "b", "i_d after"},
+                                    {HCI_SVG_LINE, "a", "i_q after"}};
     panel p = {.curves = c, .box = hci_curve_box(c, box)};
     p.y = hci_svg_axis_over(hci_curve_dq_range(c), box->bottom, box->top, HCI_CURVE_TICKS);
     p.x = hci_svg_axis_of_angle(c->turns, &p.box);

@@ -48,6 +48,11 @@ void hci_tuning_swing(const hci_solution *s, double *before_Nm, double *after_Nm
     *after_Nm = facts.after_Nm.high - facts.after_Nm.low;
 }
 
+bool hci_tuning_has_table(const hci_tuning *t)
+{
+    return t->part[HCI_TUNING_LOAD][0] != '\0';
+}
+
 bool hci_tuning_knows_ripple(const hci_solution *s)
 {
     double before_Nm, after_Nm;
@@ -139,6 +144,11 @@ void hci_page_tuning(hci_output *out, const hci_tuning *t)
     if (t->solution) {
         hci_plot_solution_facts(t->solution, &p.facts);
         p.ripple_is_unknown = !hci_tuning_knows_ripple(t->solution);
+        if (!hci_tuning_has_table(t))
+            hci_html_paragraph(
+                out, NULL,
+                "There is no table: what follows is what the currents of the model would do in "
+                "it, and says nothing of the machine.");
         show_before_and_after(&p, t->table_Nm);
         hci_page_expectation(&p);
         hci_page_tuned(&p, t);

@@ -127,7 +127,7 @@ static void words_of_way(char text[3 * HCI_HTML_NUMBER_SIZE], hci_range r, doubl
     snprintf(text, 3 * HCI_HTML_NUMBER_SIZE, is_still ? "stays at %s A" : "goes from %s to %s A", low, high);
 }
 
-static void heading_of_currents(const hci_solution_page *p, char text[512])
+static void heading_of_currents(const hci_solution_page *p, bool has_table, char text[512])
 {
     const hci_plot_facts *f = &p->facts;
     const double most_A = fmax(fmax(-f->d_A.low, f->d_A.high), fmax(-f->q_A.low, f->q_A.high));
@@ -135,7 +135,8 @@ static void heading_of_currents(const hci_solution_page *p, char text[512])
     words_of_way(d, f->d_A, most_A);
     words_of_way(q, f->q_A, most_A);
     hci_html_number_text(plain, f->plain_dq_A.q);
-    snprintf(text, 512, "With the table i_q %s, where a plain sine has %s A, and i_d %s", q, plain, d);
+    snprintf(text, 512, "%s i_q %s, where a plain sine has %s A, and i_d %s",
+             has_table ? "With the table" : "In the model alone", q, plain, d);
 }
 
 static void table_of_currents(const hci_solution_page *p)
@@ -151,7 +152,7 @@ static void table_of_currents(const hci_solution_page *p)
     hci_html_table_end(p->out);
 }
 
-static void show_currents(const hci_solution_page *p, const hci_plot_tuned *tuned)
+static void show_currents(const hci_solution_page *p, const hci_plot_tuned *tuned, bool has_table)
 {
     char heading[512];
     const hci_html_drawing drawing = {
@@ -166,7 +167,7 @@ static void show_currents(const hci_solution_page *p, const hci_plot_tuned *tune
         .draw = hci_plot_tuned_dq,
         .context = tuned};
     if (p->solution->current.count == 0) return;
-    heading_of_currents(p, heading);
+    heading_of_currents(p, has_table, heading);
     hci_html_section(p->out, heading);
     hci_html_drawing_begin(p->out, &drawing);
     table_of_currents(p);
@@ -179,7 +180,7 @@ void hci_page_tuned(const hci_solution_page *p, const hci_tuning *t)
     const hci_plot_tuned tuned = {t->solution, t->open_Nm, t->open_Nm ? HCI_TUNING_POINTS : 0};
     if (!p->ripple_is_unknown) show_torque(p, &tuned, t->table_Nm);
     if (t->open_Nm) show_open(p, &tuned);
-    show_currents(p, &tuned);
+    show_currents(p, &tuned, hci_tuning_has_table(t));
 }
 
 /* ---- the log ---- */

@@ -50,6 +50,9 @@ void hci_tuning_say(hci_tuning *tuning, hci_tuning_part part, const char *format
 /* Peak to peak of the torque of the plain sine and of the currents, in N·m. solution: with orders. */
 void hci_tuning_swing(const hci_solution *solution, double *before_Nm, double *after_Nm);
 
+/* Whether a table was written: there is something to load. */
+bool hci_tuning_has_table(const hci_tuning *tuning);
+
 /* Whether a ripple was found: a model without one says nothing of the machine's. solution: with orders. */
 bool hci_tuning_knows_ripple(const hci_solution *solution);
 
