@@ -363,7 +363,28 @@ static void show_currents_left(const hci_table_rotation *x)
                 100.0 * x->left_elsewhere, x->period_turns);
 }
 
-static void show_table(const char *run, double pole_pairs, const hci_table_rotation *x)
+/* Mean speed of a recording; 0: none is known. */
+static double mean_speed(const hci_run *run)
+{
+    double sum = 0.0;
+    for (size_t k = 0; run->speed_rad_per_s && k < run->count; ++k)
+        sum += run->speed_rad_per_s[k] / (double)run->count;
+    return sum;
+}
+
+/* Currents that are late lie behind by an angle that grows with the speed: at one speed both are the same. */
+static void show_delay(double speed_rad_per_s, const hci_table_rotation *x)
+{
+    const double late_s = -x->rotation_rad / speed_rad_per_s;
+    if (x->backwards || !(late_s > 0.0)) return;
+    cli_say("  or late      the currents in the log by %.2g ms, as those of a bus, a filter or a loop are: "
+            "then nothing is to be taken away. A log at another speed tells: an angle stays, a delay "
+            "grows with it\n",
+            1e3 * late_s);
+}
+
+static void show_table(const char *run, double pole_pairs, double speed_rad_per_s,
+                       const hci_table_rotation *x)
 {
     if (!x->is_found) {
         show_no_table(run, pole_pairs, x);
@@ -379,9 +400,10 @@ static void show_table(const char *run, double pole_pairs, const hci_table_rotat
         cli_say("  coarse       the log's angle goes in steps of %.3g degrees electrical; half of one cannot "
                 "be told\n",
                 degrees(x->step_rad));
-    if (x->is_rotated)
+    if (x->is_rotated) {
         show_table_remedy(pole_pairs, x);
-    else
+        show_delay(pole_pairs * speed_rad_per_s, x);
+    } else
         cli_say("  told         if the drive followed a torque reference; a position or speed loop makes the "
                 "currents that the shaft asks for, wherever the table is read: then compare the ripple of "
                 "speed or current with and without it\n");
@@ -396,7 +418,7 @@ static hci_status compare_table(const cli_arguments *a, const char *table_path,
     hci_status status = hci_solution_read_currents(table_path, HCI_SOLUTION_CURRENTS, &table, note);
     if (!status) status = hci_run_read(a->word[1], options, &run, note);
     if (!status) status = hci_table_rotation_of(&table, &run, options->pole_pairs, x, note);
-    if (!status && cli_is_wordy()) show_table(a->word[1], options->pole_pairs, x);
+    if (!status && cli_is_wordy()) show_table(a->word[1], options->pole_pairs, mean_speed(&run), x);
     if (!status && json) status = cli_print_json(hci_table_rotation_json(x), note);
     hci_run_release(&run);
     hci_currents_release(&table);

@@ -148,4 +148,13 @@ says 'machine.csv:2: `pole_pairs`: found 2.5'
 : >"$work/file"
 run 5 check data/machine_a -o "$work/file/x"
 
+# A table that is read behind the angle, in a log with its time, is perhaps a log whose currents are late; ahead of it it is not.
+"$hci_solve" solve "$source_dir/data/machine_a" --target "$source_dir/data/scenarios/02/target.csv" --auto --quiet -o "$work/played" >/dev/null 2>&1
+for turned in 10 -10; do
+    awk -F, -v turned=$turned 'NR == 1 { print "time_s,theta_e_deg,ia_A,ib_A,ic_A"; next } { printf "%.6f,%.6f,%s,%s,%s\n", $1 / 20, $1 * 57.29577951 + turned, $2, $3, $4 }' "$work/played/waveform.csv" >"$work/turned$turned.csv"
+    "$hci_solve" check "$source_dir/data/machine_a" "$work/turned$turned.csv" --table "$work/played" >"$work/turned$turned.out" 2>&1
+done
+check "behind: no delay is named" grep -q 'or late .* by 8\.7 ms' "$work/turned10.out"
+check "ahead: a delay is named" [ "$(grep -c 'or late' "$work/turned-10.out")" = 0 ]
+check "ahead: not rotated" grep -q '^rotated' "$work/turned-10.out"
 finish
