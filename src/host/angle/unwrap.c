@@ -107,6 +107,20 @@ static void walk(unwrapper *u, double *angle, size_t n, bool within, bool write)
     }
 }
 
+/* An angle within a turn may read a little more than one, of noise or of a scale that is off, where it jumps
+ * by one; a path that is a little longer does not. */
+#define A_LITTLE 0.03
+#define A_JUMP   0.9 /* turns */
+
+static bool is_within_turn(const double *angle, size_t n)
+{
+    const double span = hci_peak_to_peak(angle, n);
+    bool jumps = false;
+    for (size_t k = 1; k < n && !jumps; ++k)
+        jumps = fabs(angle[k] - angle[k - 1]) > A_JUMP * TURN;
+    return span <= TURN * (1.0 + (jumps ? A_LITTLE : 1e-6));
+}
+
 static hci_angle_path path_of(const unwrapper *u, size_t n, bool within, bool separate)
 {
     if (u->odd * ODD_SHARE > n) return separate ? HCI_ANGLE_SCATTERED : HCI_ANGLE_UNCLEAR;
@@ -116,7 +130,7 @@ static hci_angle_path path_of(const unwrapper *u, size_t n, bool within, bool se
 
 hci_unwrapping hci_unwrap(double *angle_rad, size_t n, const double *time_s, const double *rate_rad_per_s)
 {
-    const bool within = hci_peak_to_peak(angle_rad, n) <= TURN * (1.0 + 1e-6);
+    const bool within = is_within_turn(angle_rad, n);
     const bool still = rate_rad_per_s != NULL && is_still(rate_rad_per_s, n);
     const bool has_rate = time_s != NULL && rate_rad_per_s != NULL && !still;
     unwrapper u = {.time_s = time_s, .rate_rad_per_s = has_rate ? rate_rad_per_s : NULL};

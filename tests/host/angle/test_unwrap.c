@@ -57,6 +57,27 @@ static void test_a_path_that_turns_back_is_unwrapped(void)
     }
 }
 
+/* Noise turns single steps about, and one reading is a little more than a turn. */
+static void test_a_reading_beyond_the_turn_is_within_it(void)
+{
+    for (size_t k = 0; k < N; ++k)
+        truth[k] = 0.05 * (double)k + 0.06 * sin(2.3 * (double)k);
+    wrap(0.0, 2.0 * REF_PI);
+    angle[120] = truth[120] = 2.0 * REF_PI + 0.01;
+    TEST_ASSERT_EQUAL_INT(HCI_ANGLE_UNWRAPPED, hci_unwrap(angle, N, time_s, NULL).path);
+    for (size_t k = 0; k < N; ++k)
+        TEST_ASSERT_DOUBLE_WITHIN(k == 120 ? 7.0 : 1e-9, truth[k], angle[k]);
+}
+
+/* A path that is a little longer than a turn, and jumps nowhere. */
+static void test_a_little_more_than_a_turn_stays(void)
+{
+    for (size_t k = 0; k < N; ++k)
+        truth[k] = angle[k] = 1.02 * 2.0 * REF_PI * (double)k / N;
+    TEST_ASSERT_EQUAL_INT(HCI_ANGLE_WHOLE, hci_unwrap(angle, N, time_s, NULL).path);
+    TEST_ASSERT_EQUAL_DOUBLE_ARRAY(truth, angle, N);
+}
+
 static void test_an_angle_within_a_turn_stays(void)
 {
     for (size_t k = 0; k < N; ++k)
@@ -149,6 +170,8 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_path_that_turns_back_is_unwrapped);
+    RUN_TEST(test_a_reading_beyond_the_turn_is_within_it);
+    RUN_TEST(test_a_little_more_than_a_turn_stays);
     RUN_TEST(test_an_angle_within_a_turn_stays);
     RUN_TEST(test_an_angle_beyond_a_turn_stays);
     RUN_TEST(test_jumps_of_several_turns_are_counted);

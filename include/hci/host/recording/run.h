@@ -153,7 +153,8 @@ typedef struct {
  * vab_V, vbc_V, vca_V; or vd_V, vq_V, v_d being 0 without), in any unit and by the names of other tools,
  * which the remark tells where they could mean something else. No current is none that flows.
  *
- * An angle within one turn that jumps by more than half a turn has been wrapped, and the turns are put back;
+ * An angle within one turn that jumps by more than half a turn has been wrapped, and the turns are put back
+ * (where it jumps by a whole one, its readings may span 3 % more);
  * one that is beyond a turn is as it stands, unless it jumps back against its way by whole turns. Samples
  * without time, or all recorded at speed 0, of which one in twenty is more than a third of a turn from the
  * one before are points without order, and keep the angles that they have. With time that is an error, unless
