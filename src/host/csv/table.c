@@ -174,3 +174,62 @@ hci_status hci_csv_check_rows(const hci_csv *csv, size_t most, const char *remed
     return hci_note_set(note, HCI_ERROR_INPUT, "%s: found %zu rows, expected at most %zu; %s",
                         hci_quote_path(hci_csv_path(csv), path), hci_csv_rows(csv), most, remedy);
 }
+
+/* ---- one message of a bus in each row ---- */
+
+enum { LEAST_ROWS = 20, LEAST_COLUMNS = 3 };
+
+#define LIVES 0.02 /* share of the rows in which a column has a value, if it has any to speak of */
+#define WHOLE                                                                                                \
+    0.9          /* the same of a column that has one in each row, but for holes: the time is the only one   \
+                  */
+#define FULL 0.1 /* of the rows, that have all columns */
+
+/* Cells that are not empty, of each column. */
+static void count_cells(const hci_csv *csv, size_t *filled)
+{
+    for (size_t r = hci_csv_first_record(csv); r < csv->records; ++r)
+        for (size_t c = 0; c < csv->columns; ++c)
+            filled[c] += *hci_csv_cell(csv, r, c) != '\0';
+}
+
+/* Rows with a value in each column that lives. */
+static size_t full_rows(const hci_csv *csv, const size_t *filled, double rows)
+{
+    size_t full = 0;
+    for (size_t r = hci_csv_first_record(csv); r < csv->records; ++r) {
+        bool is_full = true;
+        for (size_t c = 0; c < csv->columns && is_full; ++c)
+            is_full = (double)filled[c] < LIVES * rows || *hci_csv_cell(csv, r, c) != '\0';
+        full += is_full;
+    }
+    return full;
+}
+
+static bool is_of_messages(const hci_csv *csv, const size_t *filled, double rows)
+{
+    size_t lives = 0, whole = 0;
+    for (size_t c = 0; c < csv->columns; ++c) {
+        lives += (double)filled[c] >= LIVES * rows;
+        whole += (double)filled[c] > WHOLE * rows;
+    }
+    return lives >= LEAST_COLUMNS && whole <= 1 && (double)full_rows(csv, filled, rows) < FULL * rows;
+}
+
+hci_status hci_csv_refuse_messages(const hci_csv *csv, hci_note *note)
+{
+    const size_t rows = csv->records - hci_csv_first_record(csv);
+    if (csv->number != NULL || rows < LEAST_ROWS) return HCI_OK;
+    size_t *filled = hci_memory_new(csv->columns, sizeof *filled);
+    if (filled == NULL) return hci_note_memory(note, csv->path, "its columns");
+    count_cells(csv, filled);
+    const bool is_refused = is_of_messages(csv, filled, (double)rows);
+    hci_memory_free(filled);
+    return is_refused
+               ? hci_csv_file_error(csv->path, note,
+                                    "found rows with one or a few of the columns each, as where a row is a "
+                                    "message of a bus, expected all of them in each row",
+                                    "export it again with the last value held in each column, or all signals "
+                                    "on one clock")
+               : HCI_OK;
+}

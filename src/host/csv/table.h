@@ -84,6 +84,11 @@ bool hci_csv_same_record(const hci_csv *csv, size_t a, size_t b);
 hci_status hci_csv_numbers_or_nan(const hci_csv *csv, const char *column, double *values, hci_csv_hole *first,
                                   hci_note *note);
 
+/* A log with one message of a bus in each row, its time and the signals of that message, all other cells
+ * empty: HCI_ERROR_INPUT, since no row of it is a sample. HCI_OK for others, among them those of which one
+ * column has few values, and for numbers in memory. HCI_ERROR_MEMORY. O(cells). */
+hci_status hci_csv_refuse_messages(const hci_csv *csv, hci_note *note);
+
 /* The most frequent separator of a line, outside quotes. */
 char hci_csv_separator(const char *line);
 

@@ -823,6 +823,7 @@ hci_status hci_run_csv(const char *path, const hci_run_options *options, hci_csv
                                           : hci_csv_read_recording(path, csv, note);
     if (status) return status;
     status = name_columns(from ? NULL : path, options, *csv, note);
+    if (!status) status = hci_csv_refuse_messages(*csv, note);
     if (!status) status = hci_clocks_agree(*csv, note);
     if (!status) status = hci_rows_by_time(*csv, note);
     if (!status) status = hci_bare_angle_decide(*csv, options->pole_pairs, note);
