@@ -30,21 +30,27 @@ static double found_above_sheet(const cli_tuning *t)
     return more_Nm_per_A / t->reading.run.torque_constant_Nm_per_A;
 }
 
+/* Times the figure of the sheet, or its inverse, that no magnet is off by. */
+#define FAR_FROM_SHEET 1.35
+
 /* Magnets, iron and a sensor change it alike; of a sensor all that is said is in its N·m. */
 static void append_of_scale(cli_tuning *t)
 {
     const double share = found_above_sheet(t), percent = 100.0 * fabs(share);
-    const bool is_more = share > 0.0;
+    const bool is_more = share > 0.0, is_far = fabs(log1p(share)) > log(FAR_FROM_SHEET);
     const bool is_told = is_more ? cli_tune_has_load_along_q(t) : cli_tune_load_sizes(t) >= 3;
     if (t->is_solved && !t->has_emf && fabs(share) > NEAR_SHEET && percent < 100.0)
         cli_tune_caveat(
             t,
-            "The torque per ampere is %s %% %s than %s makes: %s magnets%s, or a gain of the torque "
+            "The torque per ampere is %s %% %s than %s makes: %s%s, or a gain of the torque "
             "sensor "
             "(or of those of the currents), which would make mean torque and ripple as much %s than said. "
             "Voltages of the open machine tell the magnets%s",
             HCI_PERCENT(percent, 2), is_more ? "more" : "less", cli_tune_constant_option(t),
-            is_more ? "stronger or colder" : "weaker or warmer",
+            is_far    ? "a figure of another kind (of rms or peak, of line or phase voltage: --kv-of), or of "
+                        "another motor, since magnets differ by less"
+            : is_more ? "stronger or colder magnets"
+                      : "weaker or warmer magnets",
             is_told   ? ""
             : is_more ? ", a reluctance torque where an i_d flows"
                       : ", iron that saturates",
