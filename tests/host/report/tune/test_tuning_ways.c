@@ -39,18 +39,20 @@ static void test_the_heading(void)
     p.facts.d_A = (hci_range){-4.0, -1.0};
     p.facts.q_A = (hci_range){5.0, 5.03};
     p.facts.plain_dq_A.q = 4.5;
-    heading_of_currents(&p, heading);
+    heading_of_currents(&p, true, heading);
     TEST_ASSERT_EQUAL_STRING("With the table i_q stays at 5.02 A, where a plain sine has 4.5 A, and i_d goes "
                              "from −4 to −1 A",
                              heading);
     p.facts.d_A = (hci_range){-2.5, -2.4}; /* of the largest, 5.03 */
-    heading_of_currents(&p, heading);
+    heading_of_currents(&p, true, heading);
     TEST_ASSERT_NOT_NULL(strstr(heading, "i_d goes from"));
     p.facts.d_A = (hci_range){-20.0, -19.9}; /* now of 20 */
     p.facts.q_A = (hci_range){5.0, 5.19};
-    heading_of_currents(&p, heading);
+    heading_of_currents(&p, true, heading);
     TEST_ASSERT_NOT_NULL(strstr(heading, "i_d stays at"));
     TEST_ASSERT_NOT_NULL(strstr(heading, "i_q stays at"));
+    heading_of_currents(&p, false, heading); /* no table was written */
+    TEST_ASSERT_NOT_NULL(strstr(heading, "In the model alone i_q stays at"));
 }
 
 int main(void)
