@@ -48,11 +48,6 @@ void hci_tuning_swing(const hci_solution *s, double *before_Nm, double *after_Nm
     *after_Nm = facts.after_Nm.high - facts.after_Nm.low;
 }
 
-bool hci_tuning_has_table(const hci_tuning *t)
-{
-    return t->part[HCI_TUNING_LOAD][0] != '\0';
-}
-
 bool hci_tuning_knows_ripple(const hci_solution *s)
 {
     double before_Nm, after_Nm;

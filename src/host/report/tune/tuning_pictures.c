@@ -175,6 +175,11 @@ static void show_currents(const hci_solution_page *p, const hci_plot_tuned *tune
     hci_html_section_end(p->out);
 }
 
+bool hci_tuning_has_table(const hci_tuning *t)
+{
+    return t->part[HCI_TUNING_LOAD][0] != '\0';
+}
+
 void hci_page_tuned(const hci_solution_page *p, const hci_tuning *t)
 {
     const hci_plot_tuned tuned = {t->solution, t->open_Nm, t->open_Nm ? HCI_TUNING_POINTS : 0};

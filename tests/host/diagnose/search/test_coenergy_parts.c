@@ -17,6 +17,7 @@ static double gram[RUNS][COLUMNS * COLUMNS], moment[RUNS][COLUMNS], precision[CO
 static hci_normal_equations run[RUNS];
 static hci_binned_samples samples;
 static hci_run_statistics statistics[RUNS];
+static hci_run recording[RUNS];
 static hci_segment segment[RUNS];
 static hci_binned_sample sample[RUNS * 100];
 static bool use[RUNS];
@@ -66,7 +67,7 @@ void setUp(void)
             sample[100 * (size_t)r + k].reading.theta_m_rad = 0.97 * 2.0 * REF_PI * (double)k / 99.0;
     }
     samples = (hci_binned_samples){sample, RUNS * 100, segment, RUNS, statistics, RUNS};
-    regression = (hci_regression){.machine = &machine, .samples = &samples, .use = use};
+    regression = (hci_regression){.machine = &machine, .samples = &samples, .runs = recording, .use = use};
     search = (hci_search){.regression = &regression, .options = &options, .resolution_Nm = 0.01};
     c = (comparison){.search = &search,
                      .known = &known,
@@ -308,8 +309,8 @@ static void test_what_of_a_choice_is_kept(void)
     TEST_ASSERT_EQUAL_DOUBLE(0.0, list[2].deviation);
 }
 
-/* 0.48 of the samples in an electrical turn of the run with fewest, of those that have one; 90 at the most.
- */
+/* 0.48 of the samples in an electrical turn of the run with fewest, of those that have one or were calculated
+ * at even steps; 90 at the most. */
 static void test_the_order_that_samples_tell(void)
 {
     TEST_ASSERT_EQUAL_INT(16, resolved_order(&regression)); /* 48 / 2.91 */
@@ -325,6 +326,9 @@ static void test_the_order_that_samples_tell(void)
     for (size_t k = 0; k < RUNS * 100; ++k)
         sample[k].reading.theta_m_rad *= 0.89 / 0.91;
     TEST_ASSERT_EQUAL_INT(90, resolved_order(&regression));
+    recording[0].is_tabulated = true;
+    TEST_ASSERT_EQUAL_INT(53, resolved_order(&regression)); /* 48 / 0.89 */
+    recording[0].is_tabulated = false;
 }
 
 /* Two hundredths of the largest current apart, whatever its size. */
