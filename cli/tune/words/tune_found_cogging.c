@@ -215,6 +215,24 @@ static void judge_folded(cli_tuning *t, const order_sum *sum, size_t count)
     }
 }
 
+/* Brings the largest orders to the front. */
+static void say_largest(cli_tuning *t, order_sum *sum, size_t count)
+{
+    for (size_t shown = 0; shown < CLI_TUNE_ORDERS_SAID && shown < count; ++shown) {
+        order_sum *most = &sum[shown];
+        char words[CLI_TUNE_ORDER];
+        for (size_t k = shown; k < count; ++k)
+            if (hypot(sum[k].sine_Nm, sum[k].cosine_Nm) > hypot(most->sine_Nm, most->cosine_Nm))
+                most = &sum[k];
+        const order_sum o = *most;
+        *most = sum[shown];
+        sum[shown] = o;
+        hci_tuning_say(&t->tuning, HCI_TUNING_FOUND, "  order %s: %.4g ± %.1g N·m",
+                       cli_tune_order_words(t, o.order, words), hypot(o.sine_Nm, o.cosine_Nm),
+                       o.std_error_Nm);
+    }
+}
+
 void cli_tune_say_found_cogging(cli_tuning *t)
 {
     static order_sum sum[MOST_ORDERS];
@@ -229,19 +247,7 @@ void cli_tune_say_found_cogging(cli_tuning *t)
     hci_tuning_say(&t->tuning, HCI_TUNING_FOUND,
                    "cogging torque and what else follows the angle alone, %zu order%s, the largest:", count,
                    count == 1 ? "" : "s");
-    for (size_t shown = 0; shown < CLI_TUNE_ORDERS_SAID && shown < count; ++shown) {
-        order_sum *most = &sum[shown];
-        for (size_t k = shown; k < count; ++k)
-            if (hypot(sum[k].sine_Nm, sum[k].cosine_Nm) > hypot(most->sine_Nm, most->cosine_Nm))
-                most = &sum[k];
-        const order_sum o = *most;
-        *most = sum[shown];
-        sum[shown] = o;
-        char words[CLI_TUNE_ORDER];
-        hci_tuning_say(&t->tuning, HCI_TUNING_FOUND, "  order %s: %.4g ± %.1g N·m",
-                       cli_tune_order_words(t, o.order, words), hypot(o.sine_Nm, o.cosine_Nm),
-                       o.std_error_Nm);
-    }
+    say_largest(t, sum, count);
     size_t from = 0;
     if (isfinite(t->cogging.friction_Nm) && !cli_tune_next_found(t, cli_tune_is_friction, &from))
         hci_tuning_say(&t->tuning, HCI_TUNING_FOUND,

@@ -47,7 +47,7 @@ typedef struct {
     double elapsed_s;       /* since the start of the recording; 0 where there is no time */
     int computed_phase; /* 1, 2, 3: no sensor reads this phase's current, it is minus the sum of the other two
                          * as they are read; 0: each has its own, or it is not known */
-    bool no_current;    /* none flows, and no sensor read one: zeros of the sensors are in no reading */
+    bool switched_off;  /* no current flows, and no sensor read one: zeros of the sensors are in no reading */
 } hci_sample;
 
 /* A torque and its derivatives at a true sample; zeros to begin with. */

@@ -13,7 +13,7 @@ static const hci_effect_parameter PARAMETER[] = {
 /* What stands still in the phases turns against the rotor. */
 static void add(const hci_effect *effect, double sign, int pole_pairs, hci_sample *x)
 {
-    if (x->no_current) return;
+    if (x->switched_off) return;
     const hci_phase_rates rates = hci_phase_rates_of(pole_pairs, x);
     for (size_t s = 0; s < 3; ++s)
         x->i_abc[s] += sign * hci_effect_value(effect, s);
@@ -35,7 +35,7 @@ static void undo_adjoint(const hci_effect *effect, int pole_pairs, const hci_sam
                          const hci_sample *after, hci_effect_torque *by, double *by_value)
 {
     (void)after;
-    if (before->no_current) {
+    if (before->switched_off) {
         for (size_t k = 0; k < effect->count; ++k)
             by_value[k] = 0.0;
         return;
@@ -61,7 +61,7 @@ static void simulate(const hci_effect *effect, int pole_pairs, hci_sensor *senso
 static double sum_by_value(const hci_effect_term *term, const hci_sample *truth)
 {
     (void)term;
-    return truth->no_current ? 0.0 : 1.0;
+    return truth->switched_off ? 0.0 : 1.0;
 }
 
 #define EXPECTED                                                                                             \

@@ -107,8 +107,8 @@ static void walk(unwrapper *u, double *angle, size_t n, bool within, bool write)
     }
 }
 
-/* An angle within a turn may read a little more than one, of noise or of a scale that is off, where it jumps
- * by one; a path that is a little longer does not. */
+/* An angle within a turn may read a little more than one, of noise or of the scale of an analogue output,
+ * which is off by a percent or two, where it jumps by one; a path that is a little longer does not. */
 #define A_LITTLE 0.03
 #define A_JUMP   0.9 /* turns */
 

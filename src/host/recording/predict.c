@@ -43,7 +43,7 @@ hci_sample hci_predict_reading(const hci_run *run, size_t k)
 {
     hci_sample x = {.theta_m_rad = run->theta_m_rad[k],
                     .computed_phase = run->computed_phase,
-                    .no_current = run->no_current};
+                    .switched_off = run->switched_off};
     x.speed_rad_per_s = run->speed_rad_per_s != NULL ? run->speed_rad_per_s[k] : 0.0;
     x.temperature_C = run->temperature_C != NULL ? run->temperature_C[k] : (double)NAN;
     x.elapsed_s = run->time_s != NULL ? run->time_s[k] - run->time_s[0] : 0.0;

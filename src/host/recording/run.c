@@ -707,9 +707,9 @@ static hci_status check_finite(const reader *r)
 /* A sensor that reads shows noise, or the steps of its converter. */
 static void find_whether_off(hci_run *run)
 {
-    run->no_current = true;
-    for (size_t k = 0; k < 3 * run->count && run->no_current; ++k)
-        run->no_current = run->i_A[k] == 0.0;
+    run->switched_off = true;
+    for (size_t k = 0; k < 3 * run->count && run->switched_off; ++k)
+        run->switched_off = run->i_A[k] == 0.0;
 }
 
 static hci_status read_all(reader *r)

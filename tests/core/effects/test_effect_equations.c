@@ -679,7 +679,7 @@ static void test_no_current_is_none(void)
     double by[2] = {1.0, 1.0};
     el_add(&l, "current_offset", "a", 0.0, 0.2);
     el_add(&l, "current_offset", "b", 0.0, -0.1);
-    const hci_sample off = {.theta_m_rad = 0.3, .speed_rad_per_s = 2.0, .no_current = true};
+    const hci_sample off = {.theta_m_rad = 0.3, .speed_rad_per_s = 2.0, .switched_off = true};
     const hci_sample truth = hci_effects_undo(&l.list, P, &off), back = hci_effects_sense(&l.list, P, &off);
     for (int s = 0; s < 3; ++s) {
         TEST_ASSERT_EQUAL_DOUBLE(0.0, truth.i_abc[s]);

@@ -23,7 +23,7 @@ void tearDown(void)
 static void measure(double iq_A, bool is_off, double way)
 {
     hci_run *r = add_run(SAMPLES * TURNS);
-    r->no_current = is_off;
+    r->switched_off = is_off;
     for (size_t k = 0; k < r->count; ++k) {
         const double theta_m = way * 2.0 * REF_PI * (double)k / SAMPLES, theta = P * theta_m;
         r->theta_m_rad[k] = theta_m;

@@ -89,13 +89,13 @@ static void refused(const char *content, const char *why)
 static void test_a_drive_that_is_switched_off(void)
 {
     read_text("time_s,theta_m_rad,id_A,iq_A,torque_Nm\n0,0,0,0,1\n0.1,0.1,0,0,2\n0.2,0.2,0,0,1\n", 4);
-    TEST_ASSERT_TRUE(run.no_current);
+    TEST_ASSERT_TRUE(run.switched_off);
     hci_run_release(&run);
     read_text("time_s,theta_m_rad,torque_Nm\n0,0,1\n0.1,0.1,2\n0.2,0.2,1\n", 4);
-    TEST_ASSERT_TRUE(run.no_current);
+    TEST_ASSERT_TRUE(run.switched_off);
     hci_run_release(&run);
     read_text("time_s,theta_m_rad,id_A,iq_A,torque_Nm\n0,0,0,0,1\n0.1,0.1,0.1,0,2\n0.2,0.2,0,0,1\n", 4);
-    TEST_ASSERT_FALSE(run.no_current);
+    TEST_ASSERT_FALSE(run.switched_off);
 }
 
 /* ---- a motion ---- */

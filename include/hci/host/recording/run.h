@@ -107,7 +107,7 @@ typedef struct {
     double
         drive_constant_Nm_per_A; /* of i_q, by a torque that the drive computed from it; 0: none is known */
     int computed_phase; /* 1, 2, 3: of two phase currents the third was made, so that the sum is 0; 0: not */
-    bool no_current;    /* every current is 0 in every row, or there is no column of them: of a drive that is
+    bool switched_off;  /* every current is 0 in every row, or there is no column of them: of a drive that is
                          * switched off, so that not even zeros of its sensors are in them */
     char force_like[HCI_RUN_NAME];  /* no torque was read, and the column of this header may be the force of a
                                        load cell on a lever; "": none */

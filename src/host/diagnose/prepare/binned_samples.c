@@ -69,7 +69,7 @@ static void sample_of(const reduction *x, size_t k, hci_binned_sample *c)
     c->reading.speed_rad_per_s = r->speed_rad_per_s ? r->speed_rad_per_s[k] : 0.0;
     memcpy(c->reading.i_abc, r->i_A + 3 * k, sizeof c->reading.i_abc);
     c->reading.computed_phase = r->computed_phase;
-    c->reading.no_current = r->no_current;
+    c->reading.switched_off = r->switched_off;
     c->reading.temperature_C = r->temperature_C ? r->temperature_C[k] : (double)NAN;
     c->torque_Nm = r->torque_Nm[k];
     c->sum_A = r->has_sum ? r->i_A[3 * k] + r->i_A[3 * k + 1] + r->i_A[3 * k + 2] : (double)NAN;
@@ -153,7 +153,7 @@ static void mean_add(const reduction *r, hci_binned_sample *c, const hci_binned_
     const double departure = measured_Nm(r, x) - measured_Nm(r, c);
     const double step_rad = c->count > 1.0 ? x->reading.theta_m_rad - m->theta_m_rad : 0.0;
     m->computed_phase = x->reading.computed_phase;
-    m->no_current = x->reading.no_current;
+    m->switched_off = x->reading.switched_off;
     c->spread_rad2 = (1.0 - w) * (c->spread_rad2 + w * step_rad * step_rad);
     m->theta_m_rad += w * (x->reading.theta_m_rad - m->theta_m_rad);
     m->speed_rad_per_s += w * (x->reading.speed_rad_per_s - m->speed_rad_per_s);

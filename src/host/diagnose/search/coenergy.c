@@ -38,7 +38,9 @@ static const double WIDTHS[] = {1.0, 3.0, 10.0, 30.0, 100.0};
 #define SHOWN    1.5  /* of the resolution, as an amplitude: no order above that has more is looked for */
 #define QUIET    2.0  /* noise over the resolution, up to which all orders are told */
 #define PAID     0.5  /* of the price of all terms of a part: the widths that are expected make them fewer */
-#define MOST     2.0  /* of the squares that are left with a part, that it takes away */
+#define MOST                                                                                                 \
+    2.0 /* of the squares that are left with a part, that it takes away: 22 times of the back-EMF that the   \
+         * elements of a surface magnet have beside the declared one, 1.2 at most where there is none */
 #define NO_WORSE 0.01 /* of the mean logarithm of the squares */
 #define FLOOR    0.05 /* mean square of a run, in units of its noise, below which it is as good as can be */
 

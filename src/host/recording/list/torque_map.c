@@ -181,7 +181,7 @@ static bool point_take(const torque_map *t, size_t point, hci_run *to)
     snprintf(name, sizeof name, "%.400s (i_d %.4g A; i_q %.4g A)", t->run->name, t->i_A[point].d + 0.0,
              t->i_A[point].q + 0.0);
     *to = *t->run;
-    to->no_current = t->i_A[point].d == 0.0 && t->i_A[point].q == 0.0;
+    to->switched_off = t->i_A[point].d == 0.0 && t->i_A[point].q == 0.0;
     to->count = t->row_count[point];
     to->is_point = true;
     to->remark = (hci_note){{0}};
