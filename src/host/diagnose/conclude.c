@@ -14,7 +14,6 @@
 #include "host/machine/torque_constant.h"
 
 #define DROWNED 0.25 /* of the torque of interest: noise beside which nothing is complete */
-#define AGAINST 0.05 /* of the torque per ampere, that voltages which agree to 2 % exclude */
 
 /* ---- the test ---- */
 
@@ -220,7 +219,7 @@ static bool is_against_voltages(const hci_dataset *b, const hci_machine_data *ma
 {
     const double declared = hci_torque_constant(&machine->model, b->regression.declared);
     const double corrected = hci_torque_constant(&machine->model, &d->effects.list);
-    return fabs(corrected - declared) > AGAINST * fabs(declared) &&
+    return fabs(corrected - declared) > HCI_CONSTANT_OFF * fabs(declared) &&
            hci_open_voltage_agrees(&machine->model, runs);
 }
 

@@ -60,13 +60,14 @@ static double resolution_of(const hci_dataset *b, const task *t)
     return share * hci_dataset_range_of(b).torque_Nm;
 }
 
-static hci_attribute_options how_to(const hci_dataset *b, const task *t)
+static hci_attribute_options how_to(const hci_dataset *b, const task *t, bool constant_is_known)
 {
     return (hci_attribute_options){t->runs->run,
                                    resolution_of(b, t),
                                    t->machine->rated_current_A,
                                    t->machine->slots > 0.0 ? (size_t)t->machine->slots : 0,
                                    t->machine->has_neutral,
+                                   constant_is_known,
                                    t->options->progress,
                                    t->options->progress_context,
                                    t->options->slip,
@@ -99,9 +100,10 @@ static hci_status suspicion_ends(const hci_dataset *b, hci_suspect *suspect, con
     return status;
 }
 
-static hci_status diagnose(hci_dataset *b, const task *t, hci_diagnosis *d, hci_note *note)
+static hci_status answer(hci_dataset *b, const task *t, bool constant_is_known, hci_diagnosis *d,
+                         hci_note *note)
 {
-    const hci_attribute_options how = how_to(b, t);
+    const hci_attribute_options how = how_to(b, t, constant_is_known);
     hci_watch watch = {t->options->stop, t->options->stop_context, how.progress, how.context, false};
     hci_attribution a;
     b->regression.watch = &watch;
@@ -114,6 +116,32 @@ static hci_status diagnose(hci_dataset *b, const task *t, hci_diagnosis *d, hci_
     if (!status && !a.not_searched) status = propose_points(b, t, d, note);
     hci_attribution_release(&a);
     return status;
+}
+
+#define FAR_LESS 0.5 /* of what one answer leaves, that another one leaves */
+
+/* Whether an answer says more than another one. */
+static bool says_more(const hci_diagnosis *d, const hci_diagnosis *than)
+{
+    return d->search == HCI_WORK_COMPLETE && !d->against_voltages && d->verdict <= than->verdict &&
+           (d->verdict <= HCI_DIAGNOSIS_AMBIGUOUS || d->rms_after_Nm < FAR_LESS * than->rms_after_Nm);
+}
+
+/* Where what was found contradicts voltages that were recorded without a current, and had to leave for that,
+ * it is looked for once more with the torque per ampere that they show. */
+static hci_status diagnose(hci_dataset *b, const task *t, hci_diagnosis *d, hci_note *note)
+{
+    hci_diagnosis known = {0};
+    hci_status status = answer(b, t, false, d, note);
+    if (status > HCI_NOT_REACHED || !d->against_voltages || t->suspect) return status;
+    const hci_status again = answer(b, t, true, &known, note);
+    if (again > HCI_NOT_REACHED || !says_more(&known, d)) {
+        hci_diagnosis_release(&known);
+        return again > HCI_NOT_REACHED ? again : status;
+    }
+    hci_diagnosis_release(d);
+    *d = known;
+    return again;
 }
 
 static bool is_usable(const hci_runs *runs, size_t k)

@@ -319,8 +319,12 @@ enum { ENOUGH_RUNS = 6 }; /* to be left out, of which others tell what one shows
  * before `known`, that had them. */
 static hci_status whole_try(hci_search *s, hci_fitted_model *model, hci_fitted_model *known, hci_note *note)
 {
+    hci_fitted_model single = {0};
     hci_status status = hci_search_renew(s, model, note);
+    if (!status) status = hci_fitted_model_copy(model, &single, note);
     if (!status) status = hci_search_coenergy(s, model, note);
+    if (!status && s->whole_coenergy) hci_fitted_model_replace(&s->single, &single);
+    hci_fitted_model_release(&single);
     if (!status && s->whole_coenergy) status = hci_search_keep_predictive(s, model, note);
     if (!status) status = hci_search_residual(s, &known->candidates, note);
     const double known_Nm = hci_search_residual_rms(s);

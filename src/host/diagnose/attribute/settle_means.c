@@ -13,13 +13,11 @@
 #include "host/diagnose/search/scaled.h"
 #include "host/diagnose/search/stability.h"
 
-#define BESIDE_MEANS 0.1 /* of the square of what is left, that may stand in the ripple beside means alone   \
-                          */
-#define UNPREDICTED 0.04 /* of what effects explain, that they leave in runs left out: a fifth of the error  \
-                          */
-#define PART_OF_IT 0.02  /* the same, of iron beside something unknown: a seventh of the error */
-#define MOSTLY     0.25  /* the same, of effects that are there and not all */
-#define AS_BADLY   0.5   /* of that, by the ripple alone: then it is not the means */
+#define BESIDE_MEANS 0.1  /* of the square of what is left, that may be ripple beside means alone */
+#define UNPREDICTED  0.04 /* of what effects explain, that they leave in runs left out: a fifth of it */
+#define PART_OF_IT   0.02 /* the same, of iron beside something unknown: a seventh of the error */
+#define MOSTLY       0.25 /* the same, of effects that are there and not all */
+#define AS_BADLY     0.5  /* of that, by the ripple alone: then it is not the means */
 
 /* ---- what stands in the ripple alone ---- */
 
@@ -191,13 +189,24 @@ static hci_status score_of_means(hci_search *s, const hci_fitted_model *model, d
     return status;
 }
 
+/* What the means have to be better than. A whole co-energy was chosen by runs left out, and not by this
+ * score: then the single terms in its place count, where they are better. */
+static hci_status score_of_iron(hci_search *s, const hci_fitted_model *model, double *score, hci_note *note)
+{
+    *score = model->fit.score;
+    if (!s->whole_coenergy || hci_candidates_types_in(&s->single.candidates) == 0) return HCI_OK;
+    const hci_status status = hci_regression_fit(s->regression, &s->single.candidates, &s->single.fit, note);
+    *score = fmin(*score, s->single.fit.score);
+    return status;
+}
+
 /* Iron that saturates, beside what is no noise, is a part of that where it is wrong by more than a seventh in
  * runs left out, and a mean of each run that is another one, whatever makes it, describes the recordings
  * better: so do magnets whose temperature nobody wrote down. */
 static hci_status are_means_better(hci_search *s, const hci_attribution *a, bool *better, hci_note *note)
 {
     const hci_fitted_model *model = &a->model;
-    double share = 0.0, score = INFINITY;
+    double share = 0.0, score = INFINITY, iron = 0.0;
     bool all = false;
     *better = false;
     if (!hci_search_saturates(&model->candidates)) return HCI_OK;
@@ -205,7 +214,8 @@ static hci_status are_means_better(hci_search *s, const hci_attribution *a, bool
     if (!a->unknown) status = hci_search_is_noise(s, &model->candidates, &all, note);
     if (!status && !all) status = hci_search_unpredicted(s, &model->candidates, &share, note);
     if (!status && share > PART_OF_IT) status = score_of_means(s, model, &score, note);
-    *better = !status && score + HCI_DECISIVE < model->fit.score;
+    if (!status && share > PART_OF_IT) status = score_of_iron(s, model, &iron, note);
+    *better = !status && score + HCI_DECISIVE < iron;
     return status;
 }
 

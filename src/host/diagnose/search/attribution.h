@@ -23,6 +23,8 @@ typedef struct {
 
 enum { HCI_MOST_TYPES = 32 };
 
+#define HCI_CONSTANT_OFF 0.05 /* of the torque per ampere, that voltages which agree to 2 % exclude */
+
 /* Start with {0}. */
 typedef struct {
     hci_fitted_model model;        /* with the noise that was found in the end */
@@ -61,6 +63,7 @@ typedef struct {
     double reference_current_A; /* of a series in the currents; NAN: the largest of the runs */
     size_t slots;               /* of the machine; 0: not known */
     bool has_neutral;           /* of the machine */
+    bool constant_is_known;     /* the declared torque per ampere, to HCI_CONSTANT_OFF */
     hci_progress *progress;     /* may be NULL */
     void *context;
     const char *(*slip)(void *context); /* as in hci_diagnose_options; may be NULL */

@@ -73,11 +73,25 @@ hci_status hci_search_constant_share(const hci_search *s, const hci_candidates *
     return HCI_OK;
 }
 
-/* The type in the model that takes the torque away: the one without which most is left. */
+/* Whether a share of the declared torque per ampere is one that may be. */
+static bool is_constant_believed(const hci_search *s, double share)
+{
+    return share >= LEAST_CONSTANT &&
+           !(s->options->constant_is_known && fabs(share - 1.0) > HCI_CONSTANT_OFF);
+}
+
+/* How far it is from one that may be, the less the better. */
+static double constant_off(const hci_search *s, double share)
+{
+    return s->options->constant_is_known ? fabs(share - 1.0) : -share;
+}
+
+/* The type in the model that takes the torque away, or makes it another one than is known: the one without
+ * which it is most like it. */
 static hci_status culprit_find(const hci_search *s, const hci_candidates *candidates,
                                const hci_effect_type **culprit, hci_note *note)
 {
-    double most = -INFINITY;
+    double least = INFINITY;
     hci_status status = HCI_OK;
     for (size_t r = 0; r < hci_candidate_types() && !status; ++r) {
         const hci_effect_type *type = hci_candidate_type(r);
@@ -88,8 +102,8 @@ static hci_status culprit_find(const hci_search *s, const hci_candidates *candid
         if (!status) hci_candidates_remove_type(&without, type);
         if (!status) status = hci_search_constant_share(s, &without, &share, note);
         hci_candidates_release(&without);
-        if (status || share <= most) continue;
-        most = share;
+        if (status || constant_off(s, share) >= least) continue;
+        least = constant_off(s, share);
         *culprit = type;
     }
     return status;
@@ -147,7 +161,7 @@ hci_status hci_search_fit_below(hci_search *s, hci_fitted_model *model, double b
         if (!status) status = defects_leave(s, model, note);
     }
     if (!status) status = hci_search_constant_share(s, &model->candidates, &share, note);
-    if (status || share >= LEAST_CONSTANT) return status;
+    if (status || is_constant_believed(s, share)) return status;
     status = culprit_find(s, &model->candidates, &culprit, note);
     if (!status && culprit) status = disbelieve(s, model, culprit, share, note);
     if (culprit) model->fit.score = INFINITY;
@@ -163,7 +177,7 @@ static hci_status unbelieved_find(const hci_search *s, const hci_candidates *can
     *type = defect < candidates->count ? candidates->candidate[defect].type : NULL;
     if (*type) return HCI_OK;
     const hci_status status = hci_search_constant_share(s, candidates, &share, note);
-    return status || share >= LEAST_CONSTANT ? status : culprit_find(s, candidates, type, note);
+    return status || is_constant_believed(s, share) ? status : culprit_find(s, candidates, type, note);
 }
 
 hci_status hci_search_keep_believed(hci_search *s, hci_fitted_model *model, hci_note *note)

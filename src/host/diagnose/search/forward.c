@@ -269,13 +269,15 @@ static hci_status resonance_enter(comparison *c, const hci_effect_type *type, hc
     hci_candidate x = {.type = type, .count = 2, .price = RESONANCE_PRICE, .in = true};
     hci_fitted_model candidate = {0};
     hci_resonance found;
-    if (hci_candidates_have(&c->present->candidates, type)) return HCI_OK;
+    x.term[0] = (hci_effect_term){type->resonance[0], 0.0, 0.0, NAN};
+    x.term[1] = (hci_effect_term){type->resonance[1], 0.0, 0.0, NAN};
+    if (hci_candidates_find_in(&c->present->candidates, &x)) return HCI_OK;
     hci_status status = hci_search_residual(c->search, &c->present->candidates, note);
     if (!status)
         status = hci_resonance_find(c->search->regression, type, c->search->residual_Nm, &found, note);
     if (status || found.gain < hci_candidate_cost(&x, c->present->fit.rows) + HCI_DECISIVE) return status;
-    x.term[0] = (hci_effect_term){type->resonance[0], 0.0, found.natural_frequency_Hz, NAN};
-    x.term[1] = (hci_effect_term){type->resonance[1], 0.0, found.damping, NAN};
+    x.term[0].value = found.natural_frequency_Hz;
+    x.term[1].value = found.damping;
     status = resonance_fit(c, &x, &candidate, note);
     if (!status) status = contender_enter(c, &candidate, 0.0, note);
     hci_fitted_model_release(&candidate);

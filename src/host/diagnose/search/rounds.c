@@ -108,15 +108,31 @@ static hci_status scaled_settle(hci_search *s, hci_fitted_model *model, hci_note
 
 #define AS_MUCH 0.01 /* of what is left, that orders of any growth may take more */
 
-/* Whether the known effects alone describe the recordings down to the noise, and as well. Both are judged by
- * the noise that these leave. */
+/* Both are fitted with the noise that one of them leaves. behind: out, by how much the score of the known
+ * effects is higher, about. */
+static hci_status behind_by(hci_search *s, const hci_fitted_model *of, hci_fitted_model *known,
+                            hci_fitted_model *model, double *behind, hci_note *note)
+{
+    hci_status status = hci_search_noise(s, &of->candidates, note);
+    if (!status) status = hci_regression_fit(s->regression, &known->candidates, &known->fit, note);
+    if (!status) status = hci_regression_fit(s->regression, &model->candidates, &model->fit, note);
+    *behind = status ? (double)INFINITY : known->fit.score - model->fit.score;
+    return status;
+}
+
+/* Whether the known effects alone describe the recordings down to the noise, and nearly as well; or better,
+ * whichever of both the noise is taken from. */
 static hci_status is_better(hci_search *s, hci_fitted_model *known, hci_fitted_model *model, bool *better,
                             hci_note *note)
 {
-    hci_status status = hci_search_is_noise(s, &known->candidates, better, note);
-    if (!status && *better) status = hci_regression_fit(s->regression, &known->candidates, &known->fit, note);
-    if (!status && *better) status = hci_regression_fit(s->regression, &model->candidates, &model->fit, note);
-    *better = *better && known->fit.score < model->fit.score + AS_MUCH * fabs(model->fit.score);
+    double behind = INFINITY, by_other = INFINITY;
+    bool noise = false;
+    hci_status status = hci_search_is_noise(s, &known->candidates, &noise, note);
+    if (!status) status = behind_by(s, known, known, model, &behind, note);
+    *better = noise && behind < AS_MUCH * fabs(model->fit.score);
+    if (status || *better || !(behind < 0.0)) return status;
+    status = behind_by(s, model, known, model, &by_other, note);
+    *better = by_other < 0.0;
     return status;
 }
 
