@@ -165,7 +165,9 @@ void cli_show_diagnosis(const hci_diagnosis *d, const hci_resolution *r, const c
     hci_diagnosis_words(d, words, sizeof words);
     cli_say("diagnosed: %s, %s: %s%s%s%s" CLI_PLAIN "\n", machine, runs,
             d->odd.file ? CLI_WARN : TONES[d->verdict], hci_diagnosis_verdict_name(d->verdict),
-            d->odd.file ? " without one recording that disagrees" : "",
+            d->odd.is_aside ? " without one recording, which is set aside"
+            : d->odd.file   ? " without one recording that disagrees"
+                            : "",
             d->search == HCI_WORK_COMPLETE ? "" : " as far as was looked");
     cli_say_paragraph(2, words);
     for (size_t k = 0; k < d->findings; ++k)

@@ -194,8 +194,27 @@ void cli_tune_column_caveats(cli_tuning *t)
     append_of_columns(t);
 }
 
+/* What is promised holds as far as the other logs say what the motor is. */
+static void append_of_odd(cli_tuning *t)
+{
+    const hci_odd_run *odd = &t->diagnosis.odd;
+    if (!t->has_diagnosis || !odd->file || !t->is_solved) return;
+    if (odd->is_aside)
+        cli_tune_caveat(
+            t,
+            "%.80s is set aside: with it the logs are not explained, and without it they are; the "
+            "machine leaves %.3g N·m rms of it, where %.3g N·m are noise",
+            odd->file, odd->rms_Nm, odd->noise_Nm);
+    else
+        cli_tune_caveat(t,
+                        "%.80s disagrees with the other logs and is left out: look at that file, or at what "
+                        "was connected there",
+                        odd->file);
+}
+
 void cli_tune_log_caveats(cli_tuning *t)
 {
+    append_of_odd(t);
     append_of_unread(t);
     append_of_two(t);
     append_of_calculated(t);

@@ -411,6 +411,57 @@ static hci_status odd_mean_try(const task *t, hci_diagnosis *d, hci_note *note)
     return HCI_OK;
 }
 
+/* ---- one run beside which nothing is explained ---- */
+
+#define MUCH 2.0 /* times the noise, that is left */
+
+static bool is_collapsed(const hci_diagnosis *d)
+{
+    return d->verdict >= HCI_DIAGNOSIS_PARTLY && d->search != HCI_WORK_INTERRUPTED && !d->odd.file &&
+           !d->slip && !d->nothing_measured && d->rms_after_Nm > MUCH * d->noise_Nm;
+}
+
+static bool is_answer(const hci_diagnosis *d)
+{
+    return d->search == HCI_WORK_COMPLETE && !d->means_open && !d->odd.file &&
+           d->verdict <= HCI_DIAGNOSIS_AMBIGUOUS;
+}
+
+/* Without one of the runs, if the others have an answer then. taken: out, whether it is the one that is
+ * given.
+ */
+static hci_status aside_take(const task *t, const char *file, hci_diagnosis *d, bool *taken, hci_note *note)
+{
+    hci_diagnosis others = {0};
+    hci_odd_run odd = {0};
+    hci_status status = diagnose_without(t, file, &others, note);
+    if (status <= HCI_NOT_REACHED && is_answer(&others))
+        status = hci_odd_aside_judge(t->machine, t->dataset, t->runs, file, &others, &odd, note);
+    *taken = status <= HCI_NOT_REACHED && odd.file;
+    if (!*taken) {
+        hci_diagnosis_release(&others);
+        return status;
+    }
+    hci_diagnosis_release(d);
+    *d = others;
+    d->odd = odd;
+    return HCI_OK;
+}
+
+/* One run more is not to take away what the others say: where all are not explained and those without it are,
+ * that is the answer, and it is said which one is not described. */
+static hci_status aside_try(const task *t, hci_diagnosis *d, hci_note *note)
+{
+    const char *file[HCI_ODD_MEANS];
+    hci_status status = HCI_OK;
+    bool taken = false;
+    if (!is_collapsed(d)) return HCI_OK;
+    const size_t count = hci_odd_aside_pick(t->runs, d, file);
+    for (size_t k = 0; k < count && !taken && status <= HCI_NOT_REACHED; ++k)
+        status = aside_take(t, file[k], d, &taken, note);
+    return status;
+}
+
 static hci_status diagnose_any(const task *t, hci_diagnosis *d, hci_note *note)
 {
     hci_odd_run odd;
@@ -422,6 +473,7 @@ static hci_status diagnose_any(const task *t, hci_diagnosis *d, hci_note *note)
     else
         status = diagnose_all(t, d, note);
     if (!status) status = odd_mean_try(t, d, note);
+    if (!status) status = aside_try(t, d, note);
     if (status > HCI_NOT_REACHED) hci_diagnosis_release(d);
     return status;
 }

@@ -432,3 +432,43 @@ hci_status hci_odd_mean_judge(const hci_machine_data *machine, const hci_dataset
     hci_suspect_release(&s);
     return status;
 }
+
+/* ---- that is set aside ---- */
+
+size_t hci_odd_aside_pick(const hci_runs *runs, const hci_diagnosis *d, const char *file[HCI_ODD_MEANS])
+{
+    const hci_run_errors *last = NULL, *worst = NULL;
+    size_t count = 0;
+    for (size_t k = 0; k < d->runs; ++k) {
+        const hci_run_errors *e = &d->run[k];
+        if (!has_mean(runs, d, k)) continue;
+        last = e;
+        if (!worst || e->rms_after_Nm * worst->noise_floor_Nm > worst->rms_after_Nm * e->noise_floor_Nm)
+            worst = e;
+    }
+    if (last) file[count++] = last->file;
+    if (worst != last) file[count++] = worst->file;
+    return count;
+}
+
+hci_status hci_odd_aside_judge(const hci_machine_data *machine, const hci_dataset *b, const hci_runs *runs,
+                               const char *file, const hci_diagnosis *others, hci_odd_run *odd,
+                               hci_note *note)
+{
+    hci_suspect s;
+    hci_diagnosis d = {0};
+    memset(odd, 0, sizeof *odd);
+    hci_status status = hci_suspect_make(machine, b->regression.declared, runs, file, &s, note);
+    if (status) return status;
+    const hci_runs one = {.run = &s.run, .role = &s.role, .count = 1};
+    status = hci_run_errors_of(&s.dataset, &one, &others->effects.list, &d, note);
+    if (!status && d.runs == 1)
+        *odd = (hci_odd_run){.file = file,
+                             .rms_Nm = d.run[0].rms_after_Nm,
+                             .others_Nm = others->rms_after_Nm,
+                             .is_aside = true,
+                             .noise_Nm = d.run[0].noise_floor_Nm};
+    hci_memory_free(d.run);
+    hci_suspect_release(&s);
+    return status;
+}

@@ -41,6 +41,17 @@ hci_status hci_odd_mean_judge(const hci_machine_data *machine, const hci_dataset
                               const hci_runs *runs, const char *file, const hci_diagnosis *others,
                               hci_odd_run *odd, hci_note *note);
 
+/* The run that was listed last, of those to be fitted that tell a torque, and the one whose error is most
+ * beside its noise, if that is another one. d: of all runs. file: out, belong to runs. Returns their number.
+ * O(runs). */
+size_t hci_odd_aside_pick(const hci_runs *runs, const hci_diagnosis *d, const char *file[HCI_ODD_MEANS]);
+
+/* Of a run without which one machine explains all others: odd is set to how far that machine is from it.
+ * HCI_ERROR_MEMORY. O(samples of the run). */
+hci_status hci_odd_aside_judge(const hci_machine_data *machine, const hci_dataset *dataset,
+                               const hci_runs *runs, const char *file, const hci_diagnosis *others,
+                               hci_odd_run *odd, hci_note *note);
+
 /* A run that stands out, by itself. Start with {0}; it must not be moved. */
 typedef struct {
     hci_dataset dataset;

@@ -143,7 +143,8 @@ char *hci_diagnosis_json(const hci_diagnosis *d, const hci_resolution *r)
     hci_json_bool(&json, "contradicted_by_holdout", d->contradicted);
     hci_json_bool(&json, "does_not_repeat", d->wanders);
     hci_json_bool(&json, "magnetic_only", d->magnetic_only);
-    hci_json_text(&json, "disagrees", d->odd.file ? d->odd.file : "");
+    hci_json_text(&json, "disagrees", d->odd.file && !d->odd.is_aside ? d->odd.file : "");
+    hci_json_text(&json, "set_aside", d->odd.is_aside ? d->odd.file : "");
     const bool is_mean = fabs(d->odd.mean_Nm) > 0.0;
     hci_json_number(&json, "disagrees_mean_Nm", is_mean ? d->odd.mean_Nm : (double)NAN);
     hci_json_number(&json, "disagrees_mean_error_Nm", is_mean ? d->odd.mean_error_Nm : (double)NAN);

@@ -117,6 +117,8 @@ typedef struct {
                                     * error of that, by their means. 0: that is not it */
     double mean_open_Nm; /* standard deviation of what the others leave open of its mean, such as friction */
     bool mean_is_untold; /* no other run has its speed */
+    bool is_aside; /* all that is known: with it the recordings are not explained, and without it they are */
+    double noise_Nm; /* there: of this run */
 } hci_odd_run;
 
 /* Bytes of a reason. */

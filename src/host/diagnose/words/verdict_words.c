@@ -649,6 +649,20 @@ static void say_odd_mean(const hci_words *w, const hci_odd_run *o)
                      "again. Of the others: ");
 }
 
+#define DESCRIBED 1.5 /* times its noise: a recording that is left so much is described */
+
+static void say_aside(const hci_words *w, const hci_odd_run *o)
+{
+    hci_words_say(w,
+                  "With %s the recordings are not explained, and without it they are: it is set aside. The "
+                  "machine of the others leaves %.3g N·m rms there, of which %.3g N·m are noise",
+                  o->file, o->rms_Nm, o->noise_Nm);
+    hci_words_say(w, o->rms_Nm <= DESCRIBED * o->noise_Nm
+                         ? ", and so describes it nearly as well. Of the others: "
+                         : ": what happened in it alone, or what only its currents and its speed show, is "
+                           "not known. Of the others: ");
+}
+
 /* The one that disagrees comes first. */
 static void say_odd(const hci_words *w, const hci_diagnosis *d)
 {
@@ -656,6 +670,10 @@ static void say_odd(const hci_words *w, const hci_diagnosis *d)
     if (!o->file) return;
     if (fabs(o->mean_Nm) > 0.0) {
         say_odd_mean(w, o);
+        return;
+    }
+    if (o->is_aside) {
+        say_aside(w, o);
         return;
     }
     hci_words_say(w, "Only %s disagrees with the others: its error is %.3g N·m rms, theirs %.3g N·m", o->file,

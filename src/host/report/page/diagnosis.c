@@ -38,7 +38,9 @@ static void heading_of(const hci_diagnosis *d, char text[NAMES_SIZE + 128])
     char added[NAMES_SIZE], either[NAMES_SIZE];
     names_of(d, HCI_FINDING_ADDED, added);
     names_of(d, HCI_FINDING_AMBIGUOUS, either);
-    if (d->odd.file)
+    if (d->odd.is_aside)
+        snprintf(text, NAMES_SIZE + 128, "Without %.200s the recordings are explained", d->odd.file);
+    else if (d->odd.file)
         snprintf(text, NAMES_SIZE + 128, "Only %.200s disagrees with the other recordings", d->odd.file);
     else if (d->verdict == HCI_DIAGNOSIS_COMPLETE)
         snprintf(text, NAMES_SIZE + 128, "The model describes these recordings");
@@ -69,9 +71,11 @@ static void say_verdict(hci_output *out, const hci_diagnosis *d, const char *mac
     hci_diagnosis_words(d, words, sizeof words);
     heading_of(d, heading);
     snprintf(kicker, sizeof kicker, "Diagnosis of a machine model · %s", machine);
-    hci_html_begin(out,
-                   &(hci_html_opening){kicker, d->odd.file ? "One recording disagrees" : BADGE[d->verdict],
-                                       heading, d->verdict <= HCI_DIAGNOSIS_EXPLAINED && !d->odd.file});
+    hci_html_begin(out, &(hci_html_opening){kicker,
+                                            d->odd.is_aside ? "One recording is set aside"
+                                            : d->odd.file   ? "One recording disagrees"
+                                                            : BADGE[d->verdict],
+                                            heading, d->verdict <= HCI_DIAGNOSIS_EXPLAINED && !d->odd.file});
     hci_html_paragraph(out, "lead",
                        strncmp(words, LACKED, sizeof LACKED - 1) == 0 ? next_sentence(words) : words);
 }
