@@ -413,7 +413,8 @@ static hci_status odd_mean_try(const task *t, hci_diagnosis *d, hci_note *note)
 
 /* ---- one run beside which nothing is explained ---- */
 
-#define MUCH 2.0 /* times the noise, that is left */
+#define MUCH       2.0 /* times the noise, that is left */
+#define AT_LEISURE 2.0 /* times the work */
 
 static bool is_collapsed(const hci_diagnosis *d)
 {
@@ -427,14 +428,17 @@ static bool is_answer(const hci_diagnosis *d)
            d->verdict <= HCI_DIAGNOSIS_AMBIGUOUS;
 }
 
-/* Without one of the runs, if the others have an answer then. taken: out, whether it is the one that is
- * given.
- */
+/* Without one of the runs, with work enough to come to an end, if the others have an answer then. taken: out,
+ * whether it is the one that is given. */
 static hci_status aside_take(const task *t, const char *file, hci_diagnosis *d, bool *taken, hci_note *note)
 {
     hci_diagnosis others = {0};
     hci_odd_run odd = {0};
-    hci_status status = diagnose_without(t, file, &others, note);
+    hci_diagnose_options options = *t->options;
+    task longer = *t;
+    options.work = AT_LEISURE * (options.work > 0.0 ? options.work : 1.0);
+    longer.options = &options;
+    hci_status status = diagnose_without(&longer, file, &others, note);
     if (status <= HCI_NOT_REACHED && is_answer(&others))
         status = hci_odd_aside_judge(t->machine, t->dataset, t->runs, file, &others, &odd, note);
     *taken = status <= HCI_NOT_REACHED && odd.file;

@@ -16,14 +16,26 @@
 
 enum { MOST_EFFECTS = 9, MOST_ROUNDS = 14 };
 
+/* Another effect; of as many as there may be, more of those that are in. */
+static hci_status effect_add(hci_search *s, hci_fitted_model *model, bool *added, hci_note *note)
+{
+    const bool *before = s->denied;
+    bool denied[HCI_MOST_TYPES];
+    if (hci_candidates_types_in(&model->candidates) < MOST_EFFECTS)
+        return hci_search_forward(s, model, added, note);
+    for (size_t r = 0; r < hci_candidate_types(); ++r)
+        denied[r] = (before && before[r]) || !hci_candidates_have(&model->candidates, hci_candidate_type(r));
+    s->denied = denied;
+    const hci_status status = hci_search_forward(s, model, added, note);
+    s->denied = before;
+    return status;
+}
+
 /* One more effect, then without those that it makes superfluous; where none comes in, another in place of one
  * that is, or a few in place of a series. again: out, whether anything changed. */
 static hci_status round_run(hci_search *s, hci_fitted_model *model, bool *again, hci_note *note)
 {
-    hci_status status = HCI_OK;
-    *again = false;
-    if (hci_candidates_types_in(&model->candidates) < MOST_EFFECTS)
-        status = hci_search_forward(s, model, again, note);
+    hci_status status = effect_add(s, model, again, note);
     if (!status && *again) status = hci_search_prune(s, model, note);
     hci_search_see(s, &model->candidates);
     for (bool dropped = true; dropped && !status && !hci_search_is_over(s);)
