@@ -149,6 +149,34 @@ static hci_status say_nothing(cli_tuning *t, const char *folder, const char *nam
     return HCI_OK;
 }
 
+/* Of a bound, below which a part of it is not spoken of. */
+#define COUNTS 0.05
+
+/* Half of the largest step in which an angle was recorded, electrical. */
+static double half_step_rad(const cli_tuning *t)
+{
+    double step_rad = 0.0;
+    for (size_t k = 0; k < t->runs.count; ++k)
+        step_rad = fmax(step_rad, t->runs.run[k].angle_step_rad);
+    return 0.5 * step_rad * t->corrected.model.pole_pairs;
+}
+
+/* What the table makes where it is played half a step early or late, by its harmonics in the rotor frame on
+ * the fundamental of the back-EMF, in phase with each other at worst. */
+static void add_angle(cli_tuning *t)
+{
+    const hci_currents *c = &t->solution.current;
+    const double constant = fabs(hci_machine_torque_constant(&t->corrected)), turned_rad = half_step_rad(t);
+    double moved_A = 0.0;
+    for (size_t k = 0; k < c->count; ++k)
+        if (c->wave[k].sequence != 0)
+            moved_A += hci_amplitude(c->wave[k].sine, c->wave[k].cosine) *
+                       fmin(2.0, fabs(c->wave[k].order - c->wave[k].sequence) * turned_rad);
+    const double moved_Nm = 2.0 * constant * moved_A;
+    if (moved_Nm > COUNTS * t->solution.expected.peak_to_peak_Nm)
+        hci_expected_ripple_add_angle(&t->solution.expected, moved_Nm, t->mean_Nm);
+}
+
 hci_status cli_tune_emit(cli_tuning *t, hci_note *note)
 {
     const char *name = t->arguments->value[TUNE_NAME] ? t->arguments->value[TUNE_NAME] : "tuned";
@@ -168,8 +196,10 @@ hci_status cli_tune_emit(cli_tuning *t, hci_note *note)
     if (status) return status;
     t->tuning.table_Nm = header.with_Nm;
     t->cut_Nm = header.own_Nm;
-    if (t->solution.expected.state == HCI_RIPPLE_KNOWN)
+    if (t->solution.expected.state == HCI_RIPPLE_KNOWN) {
         hci_expected_ripple_add_table(&t->solution.expected, header.own_Nm, t->mean_Nm);
+        add_angle(t);
+    }
     if (cli_tune_is_of_no_use(t) || cli_tune_is_never_seen(t)) return say_nothing(t, folder, name);
     say_table(t, name, folder, currents, &header);
     say_first_turn(t, machine, currents);

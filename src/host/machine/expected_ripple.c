@@ -293,6 +293,7 @@ static hci_expected_ripple nothing(hci_ripple_state state)
                                  0.0,
                                  0.0,
                                  0.0,
+                                 0.0,
                                  false};
 }
 
@@ -433,6 +434,12 @@ void hci_expected_ripple_add_loop(hci_expected_ripple *e, double loop_Nm, double
 {
     e->loop_peak_to_peak_Nm += loop_Nm;
     add(e, loop_Nm, mean_Nm);
+}
+
+void hci_expected_ripple_add_angle(hci_expected_ripple *e, double angle_Nm, double mean_Nm)
+{
+    e->angle_peak_to_peak_Nm += angle_Nm;
+    add(e, angle_Nm, mean_Nm);
 }
 
 bool hci_expected_ripple_is_doubtful(const hci_expected_ripple *e)

@@ -58,6 +58,11 @@ static void say_ripple(const hci_words *w, const hci_expected_ripple *e)
     if (e->table_peak_to_peak_Nm > 0.0)
         hci_words_say(w, " Of that the table, to which the currents were cut, makes %s N·m.",
                       number(e->table_peak_to_peak_Nm, true, Nm));
+    if (e->angle_peak_to_peak_Nm > 0.0)
+        hci_words_say(w,
+                      " Of that %s N·m are for the steps of the recorded angle, which may have been cut off "
+                      "where the drive's own goes on.",
+                      number(e->angle_peak_to_peak_Nm, true, Nm));
     if (e->loop_peak_to_peak_Nm > 0.0)
         hci_words_say(w, " Of that the current loop makes %s N·m.",
                       number(e->loop_peak_to_peak_Nm, true, Nm));

@@ -9,6 +9,7 @@
 #include "hci/host/csv/csv.h"
 #include "hci/math/harmonic.h"
 #include "host/angle/between_steps.h"
+#include "host/angle/steps_of.h"
 #include "host/angle/unwrap.h"
 #include "host/base/memory.h"
 #include "host/base/quote.h"
@@ -133,6 +134,7 @@ static hci_status follow_angle(reader *r, hci_angle_path path)
 {
     hci_run *run = r->run;
     if (run->time_s == NULL || run->theta_m_rad == NULL || path == HCI_ANGLE_SCATTERED) return HCI_OK;
+    run->angle_step_rad = hci_steps_of(run->theta_m_rad, run->count);
     const double step_rad = hci_angle_between_steps(run->theta_m_rad, run->time_s, run->count);
     if (step_rad < 0.0) return memory_error(r);
     if (step_rad > 0.0)

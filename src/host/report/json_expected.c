@@ -18,6 +18,8 @@ static void put_ripple(hci_json *json, const hci_expected_ripple *e)
     hci_json_number(json, "peak_to_peak_Nm_95", e->peak_to_peak_Nm);
     if (e->table_peak_to_peak_Nm > 0.0)
         hci_json_number(json, "table_peak_to_peak_Nm", e->table_peak_to_peak_Nm);
+    if (e->angle_peak_to_peak_Nm > 0.0)
+        hci_json_number(json, "angle_peak_to_peak_Nm", e->angle_peak_to_peak_Nm);
     if (e->loop_peak_to_peak_Nm > 0.0) hci_json_number(json, "loop_peak_to_peak_Nm", e->loop_peak_to_peak_Nm);
     hci_json_number(json, "error_peak_to_peak_Nm_95", e->error_peak_to_peak_Nm);
     hci_json_number(json, "mean_Nm", e->mean_Nm);

@@ -50,6 +50,7 @@ typedef struct {
     double table_peak_to_peak_Nm; /* the part of peak_to_peak_Nm that the cut of a table adds; 0: currents as
                                    * they were solved */
     double loop_peak_to_peak_Nm;  /* the part that a current loop adds; 0: currents that flow as they are */
+    double angle_peak_to_peak_Nm; /* the part that the steps of a recorded angle add */
     double left_peak_to_peak_Nm;  /* the part that only what the model leaves of its recordings asks for */
     bool if_in_time; /* all of it is of a torque sensor that is in time, which recordings of one speed do not
                       * tell; set by whom the recordings are known to */
@@ -62,6 +63,11 @@ void hci_expected_ripple_add_table(hci_expected_ripple *expected, double table_N
 /* The same with a current loop. loop_Nm: peak to peak, of the torque through the loop less that of currents
  * that flow as they are. */
 void hci_expected_ripple_add_loop(hci_expected_ripple *expected, double loop_Nm, double mean_Nm);
+
+/* The same with an angle that was recorded in steps, whose middle is half of one away where they were cut off
+ * and not rounded. angle_Nm: peak to peak, of the torque with the currents so much early or late, less that
+ * in time. */
+void hci_expected_ripple_add_angle(hci_expected_ripple *expected, double angle_Nm, double mean_Nm);
 
 /* Whether what holds for the model may not hold for the machine at all: the diagnosis has not explained its
  * recordings, or a value of it is not believable. */

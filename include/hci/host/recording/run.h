@@ -34,12 +34,14 @@ enum { HCI_RUN_NAME = 96 };
 
 /* Columns of `count` samples as they were recorded; what the run does not have is NULL. Start with {0}. */
 typedef struct {
-    char *name;              /* the file as the list names it */
-    size_t count;            /* samples */
-    int pole_pairs;          /* by which it was read */
-    double *time_s;          /* ascending; NULL: the samples have no order in time */
-    double gap_s;            /* longer steps of time_s are gaps, as between tests of one file; 0: no time */
-    double *theta_m_rad;     /* mechanical, unwrapped */
+    char *name;            /* the file as the list names it */
+    size_t count;          /* samples */
+    int pole_pairs;        /* by which it was read */
+    double *time_s;        /* ascending; NULL: the samples have no order in time */
+    double gap_s;          /* longer steps of time_s are gaps, as between tests of one file; 0: no time */
+    double *theta_m_rad;   /* mechanical, unwrapped */
+    double angle_step_rad; /* mechanical, in which it was written down; 0: in none that is seen, or it has no
+                            * time */
     double *speed_rad_per_s; /* mechanical, signed; recorded, or the slope of the angle over time where it is
                               * not or stands at 0 while the angle moves; NULL: not known */
     size_t speed_window;     /* samples that the speed is a slope of the angle over; 0: it was recorded */
