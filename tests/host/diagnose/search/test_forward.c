@@ -128,6 +128,51 @@ static void test_a_torque_that_is_late_by_radians(void)
     TEST_ASSERT_FALSE(step_forward());
 }
 
+#define SWINGS_HZ 400.0
+#define DAMPED    0.1
+
+/* sin x with x' = ω behind that sensor: the imaginary part of e^jx / (1 - u² + 2jζu), u = ω/ω_n. */
+static double behind_sensor(double omega, double x)
+{
+    const double u = omega / (2.0 * REF_PI * SWINGS_HZ), re = 1.0 - u * u, im = 2.0 * DAMPED * u;
+    return (re * sin(x) - im * cos(x)) / (re * re + im * im);
+}
+
+/* A ripple of the current, and its second harmonic, behind a sensor that swings near both, at one speed or
+ * another, and whose zero is off. */
+static void record_swinging(double offset_Nm)
+{
+    static const double SPEED[] = {45.0, 60.0, 120.0};
+    for (int k = 0; k < 3; ++k) {
+        record(3000, &(point){SPEED[k], 0.0, 0.0, -offset_Nm, 0.0});
+        for (size_t j = 0; j < 3000; ++j) {
+            const double theta = P * run[k].theta_m_rad[j];
+            double iq_A = 5.0, read_A = 5.0;
+            for (int n = 6; n <= 12; n += 6) {
+                iq_A += 0.5 * sin(n * theta);
+                read_A += 0.5 * behind_sensor(n * P * SPEED[k], n * theta);
+            }
+            rec_phases(0.0, iq_A, theta, run[k].i_A + 3 * j);
+            run[k].torque_Nm[j] += 1.5 * K_NM_PER_A * read_A;
+        }
+    }
+    search_start();
+}
+
+/* The zero of the sensor is of the same type, and in already: its resonance is looked for all the same. */
+static void test_a_resonance_beside_a_zero_of_the_sensor(void)
+{
+    record_swinging(0.1);
+    model_add("torque_sensor", "offset", NULL, 0.0);
+    model_fit();
+    TEST_ASSERT_TRUE(step_forward());
+    TEST_ASSERT_EQUAL_UINT64(1, hci_candidates_types_in(&model.candidates));
+    const hci_effect_term *at = term_in(&model.candidates, "torque_sensor", "natural_frequency", 0.0);
+    TEST_ASSERT_DOUBLE_WITHIN(4.0 * at->std_error, SWINGS_HZ, at->value);
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.1, term_in(&model.candidates, "torque_sensor", "offset", 0.0)->value);
+    TEST_ASSERT_FALSE(step_forward()); /* and nothing beside it */
+}
+
 /* Currents that are read 1 ms late, which turns i_d into i_q, beside a ripple that grows with the square of
  * the current: a series in the currents describes both at seven operating points, with many values. The delay
  * comes first, since the ripple can still be added. */
@@ -199,6 +244,7 @@ int main(void)
     RUN_TEST(test_a_second_effect_beside_a_law_of_fewer_terms);
     RUN_TEST(test_a_law_of_fewer_terms_grows);
     RUN_TEST(test_a_torque_that_is_late_by_radians);
+    RUN_TEST(test_a_resonance_beside_a_zero_of_the_sensor);
     RUN_TEST(test_few_values_before_a_series);
     RUN_TEST(test_one_effect_before_two_with_a_value_for_each_point);
     RUN_TEST(test_what_is_not_believed_makes_room);
