@@ -14,6 +14,7 @@ void setUp(void)
 
 void tearDown(void)
 {
+    hci_fitted_model_release(&search.single);
     if (search.residual_Nm) search_end();
     dataset_end();
 }
@@ -94,6 +95,56 @@ static void test_ripple_is_asked_of_saturation(void)
     TEST_ASSERT_FALSE(of_ripple);
 }
 
+/* Eight loads with a torque that falls with the cube of the current, and a ripple that nothing describes. */
+static void record_cube(void)
+{
+    for (size_t r = 0; r < 8; ++r) {
+        const double iq_A = 2.0 + (double)r;
+        record(450, &(point){60.0, iq_A, 0.0, 4e-4 * pow(iq_A, 3.0), 0.0});
+        for (size_t k = 0; k < 450; ++k)
+            run[r].torque_Nm[k] += 0.05 * sin(4.0 * P * run[r].theta_m_rad[k]);
+    }
+    search_start();
+}
+
+static void iron_fit(const char *power)
+{
+    memset(&model, 0, sizeof model);
+    model.candidates.reference_current_A = 9.0;
+    if (power) model_add("saturation", power, NULL, 0.0);
+    model_fit();
+}
+
+/* Beside a model whose iron goes with the seventh power, and describes it worse than a mean of each load; in
+ * its place stood a single one. */
+static bool means_are_better(const char *single, bool whole)
+{
+    bool better = !whole;
+    double score = 0.0;
+    hci_attribution a = {.types = 0};
+    record_cube();
+    iron_fit(single);
+    search.single = model;
+    iron_fit("d1q6_cosine");
+    search.whole_coenergy = whole;
+    a.model = model;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, are_means_better(&search, &a, &better, &note));
+    TEST_ASSERT_EQUAL_INT(HCI_OK, score_of_iron(&search, &model, &score, &note));
+    TEST_ASSERT_EQUAL_DOUBLE(better ? model.fit.score : search.single.fit.score, score);
+    tearDown();
+    setUp();
+    return better;
+}
+
+/* Single terms that describe it keep the iron in, where they were what a whole co-energy stands for. */
+static void test_means_against_single_terms(void)
+{
+    TEST_ASSERT_FALSE(means_are_better("d1q2_cosine", true));
+    TEST_ASSERT_TRUE(means_are_better("d1q2_cosine", false));
+    TEST_ASSERT_TRUE(means_are_better("d0q3_cosine", true));
+    TEST_ASSERT_TRUE(means_are_better(NULL, true));
+}
+
 static void value_set(double order, double value)
 {
     for (size_t k = 0; k < model.candidates.count; ++k)
@@ -141,6 +192,7 @@ int main(void)
     RUN_TEST(test_what_means_of_their_own_cost);
     RUN_TEST(test_single_terms_that_predict_nothing);
     RUN_TEST(test_ripple_is_asked_of_saturation);
+    RUN_TEST(test_means_against_single_terms);
     RUN_TEST(test_orders_that_cancel);
     return UNITY_END();
 }
