@@ -7,6 +7,7 @@
 static hci_attribution a;
 static hci_candidate list[3];
 static hci_candidates candidates;
+static hci_fitted_model known;
 
 void setUp(void)
 {
@@ -18,6 +19,8 @@ void setUp(void)
 
 void tearDown(void)
 {
+    hci_fitted_model_release(&known);
+    hci_fitted_model_release(&search.single);
     search_end();
     dataset_end();
 }
@@ -116,6 +119,45 @@ static void test_what_was_told_apart_is_forgotten_of_all(void)
     }
 }
 
+/* Six loads whose iron saturates, of different currents or of one, which tells no powers. */
+static void record_saturated(double step_A)
+{
+    for (int k = 0; k < 6; ++k) {
+        const double q = 8.0 - step_A * k;
+        record(150, &(point){k % 2 ? 60.0 : -60.0, q, 0.0, 4e-4 * q * q * q, 0.0});
+    }
+    search_start();
+    how.resolution_Nm = 0.5 * NOISE_NM;
+    model.candidates.reference_current_A = 8.0;
+    model_add("saturation", "d1q2_cosine", NULL, 0.0);
+    model_fit();
+}
+
+/* Where all of the co-energy takes the place of a term that said nothing of runs left out, that term is kept
+ * beside it; else nothing is. */
+static void whole_is_tried(bool told)
+{
+    known.candidates.reference_current_A = 8.0;
+    record_saturated(told ? 1.0 : 0.0);
+    const double fitted = term_in(&model.candidates, "saturation", "d1q2_cosine", 0.0)->value;
+    TEST_ASSERT_EQUAL_INT(HCI_OK, whole_try(&search, &model, &known, &note));
+    TEST_ASSERT_EQUAL(told, search.whole_coenergy);
+    TEST_ASSERT_EQUAL_UINT64(told, hci_candidates_terms_in(&search.single.candidates));
+    if (told) {
+        const hci_effect_term *t = term_in(&search.single.candidates, "saturation", "d1q2_cosine", 0.0);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6 * fabs(fitted), fitted, t->value);
+        TEST_ASSERT_TRUE(hci_candidates_terms_in(&known.candidates) > 1);
+    }
+}
+
+static void test_single_terms_are_kept_beside_the_whole(void)
+{
+    whole_is_tried(true);
+    tearDown();
+    setUp();
+    whole_is_tried(false);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -124,5 +166,6 @@ int main(void)
     RUN_TEST(test_a_machine_that_leaves_most);
     RUN_TEST(test_what_runs_without_a_current_show_is_marked);
     RUN_TEST(test_what_was_told_apart_is_forgotten_of_all);
+    RUN_TEST(test_single_terms_are_kept_beside_the_whole);
     return UNITY_END();
 }
