@@ -327,6 +327,28 @@ static void test_runs_without_one(void)
     hci_memory_free(rest.role);
 }
 
+/* An answer with the torque per ampere that voltages show, beside one that contradicts them: of no worse
+ * verdict, and where both leave something unknown less than half of it. */
+static void test_which_answer_says_more(void)
+{
+    const hci_diagnosis than = {
+        .verdict = HCI_DIAGNOSIS_UNKNOWN, .against_voltages = true, .rms_after_Nm = 1.0};
+    d = (hci_diagnosis){.verdict = HCI_DIAGNOSIS_UNKNOWN, .rms_after_Nm = 0.49};
+    TEST_ASSERT_TRUE(says_more(&d, &than));
+    d.against_voltages = true;
+    TEST_ASSERT_FALSE(says_more(&d, &than));
+    d.against_voltages = false, d.search = HCI_WORK_LIMITED;
+    TEST_ASSERT_FALSE(says_more(&d, &than));
+    d.search = HCI_WORK_COMPLETE, d.rms_after_Nm = 0.51;
+    TEST_ASSERT_FALSE(says_more(&d, &than));
+    d.verdict = HCI_DIAGNOSIS_PARTLY;
+    TEST_ASSERT_FALSE(says_more(&d, &than));
+    d.verdict = HCI_DIAGNOSIS_AMBIGUOUS;
+    TEST_ASSERT_TRUE(says_more(&d, &than));
+    const hci_diagnosis explained = {.verdict = HCI_DIAGNOSIS_EXPLAINED, .rms_after_Nm = 9.0};
+    TEST_ASSERT_FALSE(says_more(&d, &explained));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -346,5 +368,6 @@ int main(void)
     RUN_TEST(test_which_runs_are_of_use);
     RUN_TEST(test_torques_that_were_measured);
     RUN_TEST(test_runs_without_one);
+    RUN_TEST(test_which_answer_says_more);
     return UNITY_END();
 }
