@@ -134,6 +134,37 @@ static void test_voltages_exclude_a_weaker_back_emf(void)
     TEST_ASSERT_EQUAL_INT(HCI_DIAGNOSIS_UNKNOWN, diagnosis.verdict);
 }
 
+/* A load with 5 A against the magnets, read so much off, at which a saliency adds a tenth to the torque. */
+static void record_salient(const point *x, double off_A)
+{
+    record(450, x);
+    hci_run *r = &run[runs.count - 1];
+    for (size_t k = 0; k < 450; ++k) {
+        rec_phases(off_A - 5.0, x->iq, P * r->theta_m_rad[k], r->i_A + 3 * k);
+        r->torque_Nm[k] += 0.1 * 1.5 * K_NM_PER_A * x->iq;
+    }
+}
+
+/* At one current along d a saliency is no different from stronger magnets, and for 0.02 A it is even less
+ * like itself. With the torque per ampere that the voltages show it is found all the same. */
+static void test_what_voltages_leave_is_looked_for(void)
+{
+    record_salient(&(point){60.0, 9.0, 0.0, 0.0, 0.0}, -0.022);
+    record_salient(&(point){-150.0, -4.0, 0.0, 0.0, 0.0}, 0.022);
+    record_open(1.0, 0.0, 0.1);
+    find();
+    TEST_ASSERT_FALSE(diagnosis.against_voltages);
+    TEST_ASSERT_LESS_OR_EQUAL_INT(HCI_DIAGNOSIS_AMBIGUOUS, diagnosis.verdict);
+    TEST_ASSERT_NOT_EQUAL(HCI_FINDING_REJECTED, found("reluctance")->verdict);
+    TEST_ASSERT_EQUAL_UINT64(1, diagnosis.effects.list.count);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-5, 0.1 * K_NM_PER_A / P / 5.0, -term("reluctance", "dd_cosine", 0.0)->value);
+    TEST_ASSERT_DOUBLE_WITHIN(0.05 * NOISE_NM, NOISE_NM, diagnosis.rms_after_Nm);
+    hci_diagnosis_release(&diagnosis);
+    runs.count = 2; /* without them it is the magnets */
+    find();
+    TEST_ASSERT_EQUAL_STRING("back_emf", diagnosis.effects.list.effect[0].type->name);
+}
+
 /* A torque sensor that reads 3 % too much makes magnets of it, which the voltages do not show: that is said.
  */
 static void test_a_gain_that_voltages_do_not_show(void)
@@ -184,6 +215,7 @@ int main(void)
     RUN_TEST(test_a_scale_that_is_not_well_known);
     RUN_TEST(test_nothing_in_the_torque);
     RUN_TEST(test_voltages_exclude_a_weaker_back_emf);
+    RUN_TEST(test_what_voltages_leave_is_looked_for);
     RUN_TEST(test_a_gain_that_voltages_do_not_show);
     RUN_TEST(test_small_voltages);
     return UNITY_END();
