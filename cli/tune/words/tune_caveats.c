@@ -198,18 +198,21 @@ void cli_tune_column_caveats(cli_tuning *t)
 static void append_of_odd(cli_tuning *t)
 {
     const hci_odd_run *odd = &t->diagnosis.odd;
+    size_t k = 0;
     if (!t->has_diagnosis || !odd->file || !t->is_solved) return;
+    while (k + 1 < t->runs.count && t->runs.run[k].name != odd->file)
+        ++k;
     if (odd->is_aside)
         cli_tune_caveat(
             t,
             "%.80s is set aside: with it the logs are not explained, and without it they are; the "
             "machine leaves %.3g N·m rms of it, where %.3g N·m are noise",
-            odd->file, odd->rms_Nm, odd->noise_Nm);
+            cli_tune_name_of(t, k), odd->rms_Nm, odd->noise_Nm);
     else
         cli_tune_caveat(t,
                         "%.80s disagrees with the other logs and is left out: look at that file, or at what "
                         "was connected there",
-                        odd->file);
+                        cli_tune_name_of(t, k));
 }
 
 void cli_tune_log_caveats(cli_tuning *t)

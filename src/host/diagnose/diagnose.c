@@ -75,7 +75,7 @@ static hci_attribute_options how_to(const hci_dataset *b, const task *t, bool co
                                    t->suspect ? look_at : NULL,
                                    t->suspect,
                                    t->suspect != NULL,
-                                   t->start};
+                                   constant_is_known ? NULL : t->start}; /* that may have what is excluded */
 }
 
 /* How to load a shaft that is held is not known. */
@@ -127,13 +127,21 @@ static bool says_more(const hci_diagnosis *d, const hci_diagnosis *than)
            (d->verdict <= HCI_DIAGNOSIS_AMBIGUOUS || d->rms_after_Nm < FAR_LESS * than->rms_after_Nm);
 }
 
+static bool any_is_free(const hci_runs *runs)
+{
+    for (size_t k = 0; k < runs->count; ++k)
+        if (runs->run[k].torque_source == HCI_TORQUE_INERTIA) return true;
+    return false;
+}
+
 /* Where what was found contradicts voltages that were recorded without a current, and had to leave for that,
- * it is looked for once more with the torque per ampere that they show. */
+ * it is looked for once more with the torque per ampere that they show. Of a free shaft its inertia may as
+ * well be another one. */
 static hci_status diagnose(hci_dataset *b, const task *t, hci_diagnosis *d, hci_note *note)
 {
     hci_diagnosis known = {0};
     hci_status status = answer(b, t, false, d, note);
-    if (status > HCI_NOT_REACHED || !d->against_voltages || t->suspect) return status;
+    if (status > HCI_NOT_REACHED || !d->against_voltages || t->suspect || any_is_free(t->runs)) return status;
     const hci_status again = answer(b, t, true, &known, note);
     if (again > HCI_NOT_REACHED || !says_more(&known, d)) {
         hci_diagnosis_release(&known);
@@ -425,7 +433,8 @@ static bool is_collapsed(const hci_diagnosis *d)
 static bool is_answer(const hci_diagnosis *d)
 {
     return d->search == HCI_WORK_COMPLETE && !d->means_open && !d->odd.file &&
-           d->verdict <= HCI_DIAGNOSIS_AMBIGUOUS;
+           d->verdict <= HCI_DIAGNOSIS_AMBIGUOUS && d->rms_after_Nm <= MUCH * d->noise_Nm &&
+           !(d->holdout_after_Nm > MUCH * d->holdout_noise_Nm);
 }
 
 /* Without one of the runs, with work enough to come to an end, if the others have an answer then. taken: out,
@@ -460,7 +469,7 @@ static hci_status aside_try(const task *t, hci_diagnosis *d, hci_note *note)
     hci_status status = HCI_OK;
     bool taken = false;
     if (!is_collapsed(d)) return HCI_OK;
-    const size_t count = hci_odd_aside_pick(t->runs, d, file);
+    const size_t count = hci_odd_aside_pick(&t->machine->model, t->dataset, t->runs, d, file);
     for (size_t k = 0; k < count && !taken && status <= HCI_NOT_REACHED; ++k)
         status = aside_take(t, file[k], d, &taken, note);
     return status;

@@ -8,6 +8,7 @@
 #include "host/base/memory.h"
 #include "host/diagnose/fit/dataset.h"
 #include "host/diagnose/odd_slip.h"
+#include "host/diagnose/open_voltage.h"
 #include "host/diagnose/reading/predicted_reading.h"
 #include "host/diagnose/run_errors.h"
 
@@ -435,13 +436,32 @@ hci_status hci_odd_mean_judge(const hci_machine_data *machine, const hci_dataset
 
 /* ---- that is set aside ---- */
 
-size_t hci_odd_aside_pick(const hci_runs *runs, const hci_diagnosis *d, const char *file[HCI_ODD_MEANS])
+/* Whether others have a load of its sign. */
+static bool is_loaded_that_way(const hci_runs *runs, const hci_dataset *b, size_t run)
+{
+    const hci_run_statistics *of = b->samples.statistics, *y = &of[run];
+    bool any = !(fabs(y->mean_iq_A) > LOADED * y->current_A);
+    for (size_t k = 0; k < runs->count && !any; ++k)
+        any = is_of_kind(runs, b, k, run) &&
+              of[k].mean_iq_A * copysign(1.0, y->mean_iq_A) >= LOADED * fabs(y->mean_iq_A);
+    return any;
+}
+
+static bool may_be_aside(const hci_machine *machine, const hci_dataset *b, const hci_runs *runs, size_t run)
+{
+    const reach r = reach_of(runs, b, run);
+    return !hci_open_voltage_is_in(machine, &runs->run[run]) && is_told(&r, &b->samples.statistics[run]) &&
+           is_loaded_that_way(runs, b, run);
+}
+
+size_t hci_odd_aside_pick(const hci_machine *machine, const hci_dataset *b, const hci_runs *runs,
+                          const hci_diagnosis *d, const char *file[HCI_ODD_MEANS])
 {
     const hci_run_errors *last = NULL, *worst = NULL;
     size_t count = 0;
     for (size_t k = 0; k < d->runs; ++k) {
         const hci_run_errors *e = &d->run[k];
-        if (!has_mean(runs, d, k)) continue;
+        if (!has_mean(runs, d, k) || !may_be_aside(machine, b, runs, run_of(runs, e))) continue;
         last = e;
         if (!worst || e->rms_after_Nm * worst->noise_floor_Nm > worst->rms_after_Nm * e->noise_floor_Nm)
             worst = e;

@@ -41,10 +41,13 @@ hci_status hci_odd_mean_judge(const hci_machine_data *machine, const hci_dataset
                               const hci_runs *runs, const char *file, const hci_diagnosis *others,
                               hci_odd_run *odd, hci_note *note);
 
-/* The run that was listed last, of those to be fitted that tell a torque, and the one whose error is most
- * beside its noise, if that is another one. d: of all runs. file: out, belong to runs. Returns their number.
- * O(runs). */
-size_t hci_odd_aside_pick(const hci_runs *runs, const hci_diagnosis *d, const char *file[HCI_ODD_MEANS]);
+/* The run that was listed last, of those to be fitted that tell a torque and no voltages without a current,
+ * which is what the others are held against, and whose state the others tell, the sign of its load too:
+ * without the only one of its kind they would be explained by what it denies. And the one of them whose error
+ * is most beside its noise, if that is another one. d: of all runs. file: out, belong to runs. Returns their
+ * number. O(runs²). */
+size_t hci_odd_aside_pick(const hci_machine *machine, const hci_dataset *dataset, const hci_runs *runs,
+                          const hci_diagnosis *d, const char *file[HCI_ODD_MEANS]);
 
 /* Of a run without which one machine explains all others: odd is set to how far that machine is from it.
  * HCI_ERROR_MEMORY. O(samples of the run). */

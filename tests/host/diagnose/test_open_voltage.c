@@ -155,6 +155,7 @@ static void test_what_voltages_leave_is_looked_for(void)
     find();
     TEST_ASSERT_FALSE(diagnosis.against_voltages);
     TEST_ASSERT_LESS_OR_EQUAL_INT(HCI_DIAGNOSIS_AMBIGUOUS, diagnosis.verdict);
+    TEST_ASSERT_EQUAL(HCI_FINDING_REJECTED, found("back_emf")->verdict); /* nor may it be that */
     TEST_ASSERT_NOT_EQUAL(HCI_FINDING_REJECTED, found("reluctance")->verdict);
     TEST_ASSERT_EQUAL_UINT64(1, diagnosis.effects.list.count);
     TEST_ASSERT_DOUBLE_WITHIN(1e-5, 0.1 * K_NM_PER_A / P / 5.0, -term("reluctance", "dd_cosine", 0.0)->value);
@@ -163,6 +164,20 @@ static void test_what_voltages_leave_is_looked_for(void)
     runs.count = 2; /* without them it is the magnets */
     find();
     TEST_ASSERT_EQUAL_STRING("back_emf", diagnosis.effects.list.effect[0].type->name);
+}
+
+/* What the others show of one that stands out may be what the voltages exclude. */
+static void test_what_voltages_leave_where_a_run_is_suspected(void)
+{
+    for (int k = 0; k < 4; ++k)
+        record_salient(&(point){k % 2 ? -150.0 : 60.0, k < 2 ? 9.0 : -4.0, 0.0, 0.0, 0.0},
+                       k < 2 ? -0.02 : 0.02);
+    record_open(1.0, 0.0, 0.1);
+    find();
+    TEST_ASSERT_FALSE(diagnosis.against_voltages);
+    TEST_ASSERT_LESS_OR_EQUAL_INT(HCI_DIAGNOSIS_AMBIGUOUS, diagnosis.verdict);
+    TEST_ASSERT_EQUAL_UINT64(1, diagnosis.effects.list.count);
+    TEST_ASSERT_EQUAL_STRING("reluctance", diagnosis.effects.list.effect[0].type->name);
 }
 
 /* A torque sensor that reads 3 % too much makes magnets of it, which the voltages do not show: that is said.
@@ -216,6 +231,7 @@ int main(void)
     RUN_TEST(test_nothing_in_the_torque);
     RUN_TEST(test_voltages_exclude_a_weaker_back_emf);
     RUN_TEST(test_what_voltages_leave_is_looked_for);
+    RUN_TEST(test_what_voltages_leave_where_a_run_is_suspected);
     RUN_TEST(test_a_gain_that_voltages_do_not_show);
     RUN_TEST(test_small_voltages);
     return UNITY_END();

@@ -106,6 +106,14 @@ static hci_status rival_mark(hci_search *s, hci_attribution *a, size_t type, con
     return status;
 }
 
+/* Whether what was to stand in that place cannot: without a model it is only known where a torque per ampere
+ * is that it would not have. */
+static bool is_contradicted(hci_search *s, const hci_attribution *a, const hci_verdict *v, bool driving)
+{
+    if (!v->alternative.candidates.candidate) return s->options->constant_is_known && !hci_search_is_over(s);
+    return driving || !(v->alternative.fit.score < a->model.fit.score + HCI_DECISIVE);
+}
+
 /* The same, unless the recordings contradict it in that place, where what brakes would drive as well: means
  * of a few runs may look alike in sum where one run alone, such as one without a current, tells the two
  * apart. */
@@ -118,9 +126,7 @@ static hci_status rival_mark_unless_worse(hci_search *s, hci_attribution *a, siz
     hci_status status = rival_mark(s, a, type, as, note);
     if (!status && v->alternative.candidates.candidate)
         status = hci_brakes_drive(s->regression, &v->alternative.candidates, v->type, &driving, note);
-    if (status || !v->alternative.candidates.candidate ||
-        (!driving && v->alternative.fit.score < a->model.fit.score + HCI_DECISIVE))
-        return status;
+    if (status || !is_contradicted(s, a, v, driving)) return status;
     v->ambiguous = false;
     v->rival_of = NULL;
     other->ambiguous = was_ambiguous;

@@ -10,6 +10,7 @@
 
 #define LEAST_CONSTANT 0.5  /* of the torque per ampere that is declared: a correction leaves no less */
 #define LARGEST_DEFECT 3.0  /* of a sensor, in units of what is expected of such a defect */
+#define HIDDEN         0.2  /* of a torque, that a resonance leaves of one that does not show */
 #define NEARLY         0.9  /* of what a model explains: another one that explains as much is as good */
 #define HARDLY         0.1  /* acceleration beside a residual, that is next to none */
 #define ROUNDING       1e-6 /* of the torque per ampere, that is none */
@@ -39,12 +40,39 @@ static double lag_of(const hci_candidate *x)
     return fmax(lag_s, damping / (HCI_PI * frequency_Hz));
 }
 
+/* The frequency of the largest cogging torque that is declared, in the slowest run; 0: none is. */
+static double cogging_frequency_Hz(const hci_regression *e)
+{
+    const hci_machine *m = e->machine;
+    double largest_Nm = 0.0, order = 0.0;
+    for (size_t k = 0; k < m->cogging_count; ++k) {
+        const double amplitude_Nm = hypot(m->cogging[k].sine, m->cogging[k].cosine);
+        if (!(amplitude_Nm > largest_Nm)) continue;
+        largest_Nm = amplitude_Nm;
+        order = m->cogging[k].order;
+    }
+    return order * m->pole_pairs / longest_turn_s(e);
+}
+
+/* Whether a resonance leaves nothing of the declared cogging torque in any run: then there may as well be
+ * none. */
+static bool hides_cogging(const hci_regression *e, const hci_candidate *x)
+{
+    const size_t *resonance = x->type->resonance;
+    double frequency_Hz = INFINITY;
+    for (size_t j = 0; resonance && j < x->count; ++j)
+        if (x->term[j].parameter == resonance[0]) frequency_Hz = x->term[j].value;
+    if (!isfinite(frequency_Hz)) return false;
+    const double times = cogging_frequency_Hz(e) / frequency_Hz;
+    return times * times > 1.0 + 1.0 / HIDDEN;
+}
+
 /* Behind a lag of more than a turn a sensor shows nothing of any torque, as if there were none. */
 static bool is_large_defect(const hci_regression *e, const hci_candidate *x)
 {
     for (size_t j = 0; j < x->count && x->type->is_small && x->deviation > 0.0; ++j)
         if (fabs(hci_candidate_departure(x, j)) > LARGEST_DEFECT * x->deviation) return true;
-    return lag_of(x) > longest_turn_s(e);
+    return lag_of(x) > longest_turn_s(e) || hides_cogging(e, x);
 }
 
 /* A defect that nobody would have left unnoticed; their number: none. */

@@ -77,6 +77,26 @@ static void test_the_lag_of_a_sensor(void)
     TEST_ASSERT_EQUAL_DOUBLE(0.0, lag_of(add("torque_sensor", "offset", 7.0, 0.0)));
 }
 
+/* Of the largest declared cogging torque, of order 18, in the slowest run: 18 · 3 · 25 rad/s, 215 Hz. Behind
+ * a resonance at so much over √6 a fifth of it is left. */
+static void test_a_resonance_that_hides_the_cogging_torque(void)
+{
+    hci_harmonic cogging[2] = {{36.0, 0.1, 0.0}, {18.0, 0.0, 0.5}};
+    const hci_machine machine = {.pole_pairs = 3, .cogging = cogging, .cogging_count = 2};
+    const double least_Hz = 18.0 * 3.0 * 25.0 / (2.0 * HCI_PI) / sqrt(6.0);
+    regression.machine = &machine;
+    hci_candidate *x = add("torque_sensor", "natural_frequency", 1.01 * least_Hz, 0.0);
+    TEST_ASSERT_FALSE(is_large_defect(&regression, x));
+    x->term[0].value = 0.99 * least_Hz;
+    TEST_ASSERT_TRUE(is_large_defect(&regression, x));
+    use[2] = true; /* at 10 rad/s it shows */
+    TEST_ASSERT_FALSE(is_large_defect(&regression, x));
+    use[2] = false;
+    cogging[1].cosine = 0.05; /* the other one is the larger now, and hidden all the more */
+    x->term[0].value = 1.99 * least_Hz;
+    TEST_ASSERT_TRUE(is_large_defect(&regression, x));
+}
+
 /* Three times what is expected, either way, and a lag of a turn, 0.2513 s. */
 static void test_a_large_defect(void)
 {
@@ -139,6 +159,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_the_longest_turn);
     RUN_TEST(test_the_lag_of_a_sensor);
+    RUN_TEST(test_a_resonance_that_hides_the_cogging_torque);
     RUN_TEST(test_a_large_defect);
     RUN_TEST(test_which_model_is_better);
     RUN_TEST(test_what_leaves_with_a_model);
