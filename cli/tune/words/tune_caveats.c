@@ -205,14 +205,15 @@ static void append_of_odd(cli_tuning *t)
     if (odd->is_aside)
         cli_tune_caveat(
             t,
-            "%.80s is set aside: with it the logs are not explained, and without it they are; the "
+            "The log %.80s is set aside: with it the logs are not explained, and without it they are; the "
             "machine leaves %.3g N·m rms of it, where %.3g N·m are noise",
             cli_tune_name_of(t, k), odd->rms_Nm, odd->noise_Nm);
     else
-        cli_tune_caveat(t,
-                        "%.80s disagrees with the other logs and is left out: look at that file, or at what "
-                        "was connected there",
-                        cli_tune_name_of(t, k));
+        cli_tune_caveat(
+            t,
+            "The log %.80s disagrees with the other logs and is left out: look at that file, or at what "
+            "was connected there",
+            cli_tune_name_of(t, k));
 }
 
 void cli_tune_log_caveats(cli_tuning *t)
