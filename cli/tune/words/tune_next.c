@@ -76,8 +76,9 @@ static void say_next_without_sensor(cli_tuning *t)
         &t->tuning, HCI_TUNING_NEXT,
         "On the same bench: play the table and make the same slow turn forward and back. What the "
         "control adds to the i_q of the table (i_q less the i_q of the table) is what is left of the "
-        "cogging torque, and the speed varies less; i_q as it is measured has the table in it, and "
-        "looks as before. Spins at two other speeds, each in both directions, tell friction.%s%s",
+        "cogging torque, and the speed varies less: look at it, and give tune no log of it, for which it "
+        "would be all there is; i_q as it is measured has the table in it, and looks as before. Spins at two "
+        "other speeds, each in both directions, tell friction.%s%s",
         has_load(t) ? ""
                     : " Against a brake the same turn forward and back tells the harmonics of the "
                       "back-EMF too.",

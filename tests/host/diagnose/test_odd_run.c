@@ -231,15 +231,6 @@ static void test_one_run_more_takes_no_answer_away(void)
     TEST_ASSERT_EQUAL_PTR(text, strstr(text, "With run_8.csv the recordings are not explained"));
 }
 
-/* Without the only one of its kind the others may be explained by what it denies. */
-static void test_the_only_one_of_its_kind_is_not_set_aside(void)
-{
-    record_all(0.05);
-    record(SAMPLES, &(point){-70.0, -5.0, 0.0, -0.05, 0.18});
-    TEST_ASSERT_EQUAL_INT(HCI_NOT_REACHED, diagnose(NULL));
-    TEST_ASSERT_NULL(diagnosis.odd.file);
-}
-
 /* A torque of the other sign in the only two runs with a current is a slip of all. */
 static void test_a_sign_that_no_other_run_tells(void)
 {
@@ -405,7 +396,6 @@ int main(void)
     RUN_TEST(test_the_only_direction_is_not_odd);
     RUN_TEST(test_the_only_warm_run_is_not_odd);
     RUN_TEST(test_one_run_more_takes_no_answer_away);
-    RUN_TEST(test_the_only_one_of_its_kind_is_not_set_aside);
     RUN_TEST(test_a_sign_that_no_other_run_tells);
     RUN_TEST(test_recordings_that_agree);
     RUN_TEST(test_a_suspicion_falls_once_the_others_explain_it);
