@@ -42,19 +42,10 @@ static const char *number(double value, bool limit, char text[NUMBER_SIZE])
     return text;
 }
 
-static void say_ripple(const hci_words *w, const hci_expected_ripple *e)
+/* What the bound consists of besides the machines that the recordings allow. */
+static void say_parts(const hci_words *w, const hci_expected_ripple *e)
 {
-    char percent[NUMBER_SIZE], Nm[NUMBER_SIZE], middle[NUMBER_SIZE];
-    if (isfinite(e->T_ripple_percent) && e->T_ripple_percent < NO_MEAN_PERCENT)
-        hci_words_say(
-            w,
-            "Ripple at most %s %% of the mean torque (95 %%), %s N·m from peak to peak; half of the "
-            "machines that the recordings allow stay below %s %%.",
-            number(e->T_ripple_percent, true, percent), number(e->peak_to_peak_Nm, true, Nm),
-            number(e->middle_percent, false, middle));
-    else
-        hci_words_say(w, "Ripple at most %s N·m from peak to peak (95 %%).",
-                      number(e->peak_to_peak_Nm, true, Nm));
+    char Nm[NUMBER_SIZE];
     if (e->table_peak_to_peak_Nm > 0.0)
         hci_words_say(w, " Of that the table, to which the currents were cut, makes %s N·m.",
                       number(e->table_peak_to_peak_Nm, true, Nm));
@@ -75,6 +66,22 @@ static void say_ripple(const hci_words *w, const hci_expected_ripple *e)
         hci_words_say(w,
                       " Of that %s N·m are for orders that the recordings show and the model does not have.",
                       number(e->left_peak_to_peak_Nm, true, Nm));
+}
+
+static void say_ripple(const hci_words *w, const hci_expected_ripple *e)
+{
+    char percent[NUMBER_SIZE], Nm[NUMBER_SIZE], middle[NUMBER_SIZE];
+    if (isfinite(e->T_ripple_percent) && e->T_ripple_percent < NO_MEAN_PERCENT)
+        hci_words_say(
+            w,
+            "Ripple at most %s %% of the mean torque (95 %%), %s N·m from peak to peak; half of the "
+            "machines that the recordings allow stay below %s %%.",
+            number(e->T_ripple_percent, true, percent), number(e->peak_to_peak_Nm, true, Nm),
+            number(e->middle_percent, false, middle));
+    else
+        hci_words_say(w, "Ripple at most %s N·m from peak to peak (95 %%).",
+                      number(e->peak_to_peak_Nm, true, Nm));
+    say_parts(w, e);
     if (isfinite(e->worst_order_Nm))
         hci_words_say(w, " Worst order %.4g, at most %s N·m off.", e->worst_order,
                       number(e->worst_order_Nm, true, Nm));

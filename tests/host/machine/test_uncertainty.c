@@ -469,6 +469,25 @@ static void test_a_table_is_in_the_bound(void)
     TEST_ASSERT_NULL_MESSAGE(strstr(words, "the table"), words);
 }
 
+/* And so are the steps of a recorded angle. */
+static void test_steps_of_the_angle_are_in_the_bound(void)
+{
+    char words[1024];
+    hci_ripple_path path = path_of(0.0, 1.0);
+    allow_cogging(0.01);
+    const hci_expected_ripple bare = expect(&path);
+    hci_expected_ripple e = bare;
+    hci_expected_ripple_add_angle(&e, 0.004, 2.0);
+    TEST_ASSERT_EQUAL_DOUBLE(0.004, e.angle_peak_to_peak_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, bare.peak_to_peak_Nm + 0.004, e.peak_to_peak_Nm);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, bare.T_ripple_percent + 0.2, e.T_ripple_percent);
+    hci_expected_ripple_words(&e, words, sizeof words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, "Of that 0.004 N·m are for the steps of the recorded angle"),
+                                 words);
+    hci_expected_ripple_words(&bare, words, sizeof words);
+    TEST_ASSERT_NULL(strstr(words, "recorded angle"));
+}
+
 /* No bound beside a load that turns with the shaft, whoever asks: it is in the file, and is written again. */
 static void test_turning_load(void)
 {
@@ -658,6 +677,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_table_is_in_the_bound);
+    RUN_TEST(test_steps_of_the_angle_are_in_the_bound);
     RUN_TEST(test_what_is_read_is_written_again);
     RUN_TEST(test_rows_in_any_order);
     RUN_TEST(test_all_recordings_together);

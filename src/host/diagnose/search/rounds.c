@@ -16,7 +16,7 @@
 
 enum { MOST_EFFECTS = 9, MOST_ROUNDS = 14 };
 
-/* Another effect; of as many as there may be, more of those that are in. */
+/* Another effect; of as many as there may be, more of those that are in, or what no effect explains. */
 static hci_status effect_add(hci_search *s, hci_fitted_model *model, bool *added, hci_note *note)
 {
     const bool *before = s->denied;

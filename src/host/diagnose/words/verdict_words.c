@@ -659,8 +659,7 @@ static void say_aside(const hci_words *w, const hci_odd_run *o)
                   o->file, o->rms_Nm, o->noise_Nm);
     hci_words_say(w, o->rms_Nm <= DESCRIBED * o->noise_Nm
                          ? ", and so describes it nearly as well. Of the others: "
-                         : ": what happened in it alone, or what only its currents and its speed show, is "
-                           "not known. Of the others: ");
+                         : ": what is different there is not known. Of the others: ");
 }
 
 /* The one that disagrees comes first. */

@@ -585,8 +585,7 @@ static void test_the_one_that_is_set_aside(void)
         (hci_odd_run){.file = "a.csv", .rms_Nm = 2.0, .others_Nm = 0.1, .is_aside = true, .noise_Nm = 0.1};
     TEST_ASSERT_TRUE(begins("With a.csv the recordings are not explained, and without it they are: it is set "
                             "aside. The machine of the others leaves 2 N·m rms there, of which 0.1 N·m are "
-                            "noise: what happened in it alone, or what only its currents and its speed show, "
-                            "is not known. Of the others: The model"));
+                            "noise: what is different there is not known. Of the others: The model"));
     d.odd.rms_Nm = 0.14;
     TEST_ASSERT_TRUE(says("noise, and so describes it nearly as well. Of the others: "));
 }
